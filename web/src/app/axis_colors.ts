@@ -1,4 +1,4 @@
-/** Colors of axes: the design's, which follow the theme; in displays rviz's where the page looks like rviz. */
+/** Colors of axes: the theme's colors, or rviz's colors in displays of a page that looks like rviz. */
 
 import { effect, type ReadonlySignal, type Signal } from "@preact/signals";
 import { Color } from "three";
@@ -8,12 +8,12 @@ import type { Rgb } from "../rviz/properties";
 import { setAxisColors } from "../scene/overlays/overlay_shapes";
 import { AXIS_RGB, type AxisColors } from "../shapes/axes";
 
-/** Follow theme and session with the colors of displays' axes and of overlays. */
+/** Set the colors of displays' axes and of overlays whenever the theme or the session changes. */
 export function followAxisColors(page: Page, theme: ReadonlySignal<string>, ofDisplays: Signal<AxisColors>): void {
   effect(() => {
     const { kind, rviz } = page.session;
     const isOwnLook = rviz === null && (kind === "simulation" || kind === "log");
-    document.documentElement.dataset["theme"] = theme.value; // whichever effect comes first
+    document.documentElement.dataset["theme"] = theme.value; // the theme's own effect may run later
     const colors = designColors();
     setAxisColors(colors);
     ofDisplays.value = isOwnLook ? colors : AXIS_RGB;

@@ -43,7 +43,7 @@ function PhoneBar({ shell }: { readonly shell: Shell }): JSX.Element {
   );
 }
 
-/** The bar of a wide page; in a narrow window its words give way, and then its rarer controls, into a menu. */
+/** The bar of a wide page; a narrow window drops its words, and then moves its rarer controls into a menu. */
 function WideBar({ shell }: { readonly shell: Shell }): JSX.Element {
   const { page } = shell;
   const row = useRef<HTMLElement>(null);
@@ -139,7 +139,7 @@ function PlayPause({ shell }: { readonly shell: Shell }): JSX.Element {
   const { layout, page } = shell;
   const paused = page.world.state.value?.paused ?? true;
   const name = paused ? "Play" : "Pause";
-  const isTight = layout.isPhone.value && page.people.value.people.length > 1; // who is there takes its place
+  const isTight = layout.isPhone.value && page.people.value.people.length > 1; // the list of people takes the label's place
   return (
     <button
       type="button"
@@ -231,7 +231,7 @@ function Record({ shell }: { readonly shell: Shell }): JSX.Element | null {
   );
 }
 
-/** The recording that a person can start and stop; null: there is none. */
+/** The recording that a person can start and stop; null: this page records nothing. */
 function recordingOf(shell: Shell): { text: string; isRunning: boolean; toggle: () => void } | null {
   const state = shell.page.world.state.value;
   if (state?.recording === undefined || !canControl(shell.page)) return null;
@@ -275,7 +275,7 @@ function themeItem({ page: { theme } }: Shell): { readonly title: string; readon
   return { title: theme.value === "dark" ? "Light theme" : "Dark theme", run: () => switchTheme(theme) };
 }
 
-/** Controls of the wide bar that gave way. */
+/** Menu items for the controls of the wide bar that have no room. */
 function givenItems(shell: Shell): readonly GivenItem[] {
   const { dialog, page } = shell;
   const recording = recordingOf(shell);

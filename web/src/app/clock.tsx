@@ -49,7 +49,7 @@ function Factor({ factor, speed }: { readonly factor: number | null; readonly sp
   );
 }
 
-/** What a number of the bar is; it gives way first. */
+/** Unit of a number of the bar; a narrow bar drops it first. */
 function Unit({ text }: { readonly text: string }): JSX.Element {
   return (
     <FittingPart rank={2}>

@@ -62,13 +62,13 @@ export function listenForKeys(commands: CommandList): () => void {
     const keys = keysOf(event);
     const isPressedButton = event.key === " " && pressed !== null && event.target === pressed;
     const isTyping = keys !== "Ctrl K" && !isPressedButton && takesKeys(event.target, event.key);
-    const isDialogOpen = document.querySelector("dialog[open]") !== null; // its button that was just disabled has lost the focus
+    const isDialogOpen = document.querySelector("dialog[open]") !== null; // the focus may be outside: a button that is disabled loses it
     if (event.defaultPrevented || isDialogOpen || isTyping || !commands.press(keys)) return;
     event.preventDefault();
     isPressing = isPressedButton;
   };
   const keyUp = (event: KeyboardEvent): void => {
-    if (isPressing && event.key === " ") event.preventDefault(); // the button's own press, in Firefox
+    if (isPressing && event.key === " ") event.preventDefault(); // Firefox would press the button again
     isPressing = false;
   };
   addEventListener("click", click, options);

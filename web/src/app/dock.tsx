@@ -91,13 +91,13 @@ export class Dock {
     };
   }
 
-  /** Tell the layout the height of what the dock shows; returns a function that ends it. */
+  /** Tell the layout the height of the dock's contents from now on; returns a function that stops. */
   private followContents(api: DockviewApi): () => void {
     const changes = signal(0);
     const count = (): void => void (changes.value += 1);
     const changed = [api.onDidLayoutChange(count), api.onDidActivePanelChange(count)];
     const stop = effect(() => {
-      changes.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- other panels are in front
+      changes.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- follows changes of the front panels
       const [group, other] = api.groups;
       const front = other === undefined ? this.byId.get(group?.activePanel?.id ?? "") : undefined;
       const height = front?.contentHeight?.(this.page).value ?? null;
@@ -144,7 +144,7 @@ export class Dock {
     if (api.totalPanels === 0) {
       const [first, ...others] = FIRST;
       this.add(api, first);
-      for (const id of others) this.add(api, id, first); // drawing each in front, one after the other, takes long
+      for (const id of others) this.add(api, id, first); // drawing every panel in front, one by one, takes long
       this.add(api, FRONT[this.page.session.kind]);
     }
   }

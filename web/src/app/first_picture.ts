@@ -1,4 +1,4 @@
-/** The first picture that a person waits for; everything else loads after it. */
+/** Waits for the first picture, which a person waits for; everything else loads after it. */
 
 import { effect } from "@preact/signals";
 

@@ -11,12 +11,12 @@ import { Arrow } from "../shapes/arrow";
 
 /** [m] */
 const PROPORTIONS = { shaftLength: 0.3, shaftDiameter: 0.05, headLength: 0.15, headDiameter: 0.14 };
-const COLOR = [255, 0, 255] as const; // of 2D Nav Goal
+const COLOR = [255, 0, 255] as const; // the color of rviz's 2D Nav Goal
 const PAST_ALPHA = 0.3;
 
 interface GoalMark {
   readonly arrow: Arrow;
-  /** Put it at its pose in the fixed frame; hidden where there is no transform. */
+  /** Put the arrow at its goal's pose in the fixed frame; it is hidden without a transform. */
   place(): void;
   remove(): void;
 }

@@ -11,15 +11,15 @@ export type SideName = "left" | "right";
 export type SidePage = (typeof LEFT | typeof RIGHT)[number];
 export type SheetHeight = "closed" | "half" | "full";
 
-const PHONE = 641; // px: narrower is the phone's page
-const ONE_SIDE = 1280; // px: narrower has one side panel at a time
-const RAILS = 1000; // px: narrower begins with rails on both sides
+const PHONE = 641; // px: a narrower window has the phone's page
+const ONE_SIDE = 1280; // px: a narrower window shows one side panel at a time
+const RAILS = 1000; // px: a narrower window begins with rails on both sides
 const RAIL = 32;
 const GAPS = 32; // left and right of each side panel
 /** Widths of a side panel [px]. */
 export const SIDE = { min: 240, max: 288 };
 const DOCK = { min: 120, rail: 32, first: 200 };
-/** Height of a page below which the dock's first height shrinks, and by which share of what the page lacks [px]. */
+/** Page height below which the dock begins lower [px], and the share of the missing height that the dock loses. */
 const DOCK_SHRINKS = { below: 900, share: 0.3 };
 /** Share of the page that a dock as high as its contents covers at most. */
 const CONTENTS_SHARE = 1 / 3;
@@ -28,12 +28,12 @@ const DOCK_OPENS = 560;
 const ABOVE_DOCK = 304;
 /** Heights of the overlays at the foot of the scene, with their gap: the tiles' pictures are 4 : 3. */
 const FOOT = { tiles: 166, drive: 138, phoneDrive: 160 };
-/** On a phone the notice and the tile below it lie at the head. */
+/** On a phone, the notice and the tile below it are at the top of the scene. */
 const HEAD = { gap: 8, phoneTile: 196 };
 /** Smallest height of the scene [px]. */
 const MIN_SCENE_HEIGHT = 240;
 
-/** Widths [px] of the side panels that are open; null: a rail. Together at most 40 % of the window. */
+/** Widths [px] of the side panels, together at most 40 % of the window; null: a rail. */
 export function sideWidths(window: number, left: number | null, right: number | null): [number, number] {
   const room = window * 0.4 - GAPS;
   const clamp = (width: number): number => Math.min(SIDE.max, Math.max(SIDE.min, Math.min(width, room)));
@@ -50,7 +50,7 @@ class Side {
   readonly isOpen: Signal<boolean>;
   readonly width: Signal<number>;
 
-  /** `open`: in windows of a width [px] and more it is as the person left it; narrower ones begin with a rail. */
+  /** `open`: in a window of this width [px] or more, the panel is as the person left it; otherwise it is a rail. */
   constructor(
     private readonly name: SideName,
     first: SidePage,
@@ -85,7 +85,7 @@ export class Layout {
   readonly right: Side;
   /** True where the dock begins open: there is a robot to drive, or something to show. */
   readonly dockBegins = signal(false);
-  /** Height of the contents of the dock's panels with its tabs [px]; null: they take what they get. */
+  /** Height of the dock's contents and tabs [px]; null: the contents fill any height. */
   readonly dockContents = signal<number | null>(null);
   /** True if the user left the dock open; null: the user never opened or closed it. */
   private readonly dockLeft = signal(innerHeight < DOCK_OPENS ? false : recall("dock.open", null, isBoolean));
@@ -194,7 +194,7 @@ export class Layout {
     remember("dock.height", this.dockHeight.peek());
   }
 
-  /** The free part's insets, for the style sheets. */
+  /** Insets of the scene's free part, as variables of the style sheets. */
   private writeVariables(): void {
     const [left, right] = this.sides.value;
     const { style } = document.documentElement;

@@ -43,7 +43,7 @@ export interface Parts {
   readonly commands: CommandList;
   /** Element that holds the scene's canvas. */
   readonly sceneHost: HTMLElement;
-  /** True while displays' messages are held back. */
+  /** True while the displays' messages are held back. */
   readonly frozen?: Signal<boolean>;
 }
 

@@ -7,7 +7,7 @@ import type { Page } from "../page/page";
 import { colorOf, nameOf, others } from "../page/people";
 import { selectedBodies } from "../page/selection_lookup";
 
-/** An outline for each of the others who has selected something. */
+/** An outline for each other person who has selected something. */
 export function othersOutlines(page: Page): readonly Outlined[] {
   return others(page.people.value)
     .map((person): Outlined => ({ thin: selectedBodies(page, person.selection), broad: [], color: colorOf(person) }))
@@ -17,7 +17,7 @@ export function othersOutlines(page: Page): readonly Outlined[] {
 /** Keep each person's name at their selection. */
 export function labelOthers(page: Page): void {
   effect(() => {
-    page.world.progress.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- of models that come, too
+    page.world.progress.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- also labels models that are loaded later
     const shown = others(page.people.value).flatMap((person) => {
       const [body] = selectedBodies(page, person.selection);
       const anchor = body === undefined ? null : page.world.object(body);

@@ -14,7 +14,7 @@ import { FollowOffer } from "./views/follow_offer";
 import { ViewMenu } from "./views/view_menu";
 
 export function SceneOverlay({ shell }: { readonly shell: Shell }): JSX.Element {
-  const hasTools = !shell.layout.isPhone.value && shell.isDrawn.value; // tools of the drawn scene
+  const hasTools = !shell.layout.isPhone.value && shell.isDrawn.value; // tools need a drawn scene
   return (
     <section class="scene-overlay" aria-label="Controls of the 3D view">
       <div class="top">

@@ -92,7 +92,7 @@ export class Shell {
     this.lessons = new Lessons(this);
     effect(() => remember("cameras", this.showsCameras.value));
     effect(() => {
-      if (this.fillsDock()) this.layout.dockBegins.value = true; // and stays, if the robot's driver ends
+      if (this.fillsDock()) this.layout.dockBegins.value = true; // stays true when the robot's driver ends
     });
   }
 

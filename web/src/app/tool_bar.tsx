@@ -14,7 +14,7 @@ import { canControl } from "../page/looking";
 import type { Command } from "../page/page";
 import type { Shell } from "./shell";
 
-/** rviz's names, shortened where the icon says the rest. */
+/** rviz's names, shortened where the icon tells the rest. */
 const SHORT: Readonly<Record<string, string>> = { "Move Camera": "Move camera", "Focus Camera": "Focus" };
 /** Tools in the bar of a simulation; others are in its menu. */
 const OF_SIMULATION = [
@@ -104,7 +104,7 @@ function MoreTools({ shell, row, others, current }: MoreToolsProps): JSX.Element
   );
 }
 
-/** True if something besides the page subscribes to what a tool publishes for navigation. */
+/** True if a node other than the page's subscribes to the topic on which a tool publishes for navigation. */
 function isHeard({ page }: Shell, { navigates }: Tool): boolean {
   if (navigates.value === null) return true;
   const nodes = page.connection.graph.value.subscribers.get(navigates.value) ?? [];
@@ -119,10 +119,12 @@ function iconOf({ icon }: Tool): IconName {
   return isIcon(icon) ? icon : "select";
 }
 
-/** Tools without a hint: their use is what a person tries first. */
+/** Tools without a hint: a person tries their gestures first anyway. */
 const MOVES_THE_VIEW = ["rviz/Interact", "rviz/MoveCamera"];
 
-/** What the current tool waits for, as a line after everything that would have to move for it; null: nothing. */
+/**
+ * Line with the action that the current tool waits for, placed last so that nothing moves when it appears; null: none.
+ */
 export function ToolHint({ shell }: { readonly shell: Shell }): JSX.Element | null {
   const { current } = shell.page.tools;
   const { className, hint } = current.value;

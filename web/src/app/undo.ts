@@ -40,7 +40,7 @@ export class UndoHistory implements PageUndo {
     this.undone.value = [];
   }
 
-  /** Record an edit when it is done; undo and redo wait for it meanwhile. */
+  /** Record an edit once it is done; undo and redo wait until then. */
   ask<T>(edit: Promise<T>): Promise<T> {
     const pending = edit.finally(() => this.pending.delete(pending));
     this.pending.add(pending);

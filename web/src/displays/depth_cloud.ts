@@ -189,7 +189,7 @@ export class DepthCloudDisplay extends Display {
   private show(depth: Image, transform: Transform, info: CameraInfo): void {
     const isColored = this.colorTopic.value.peek() !== "";
     const color = isColored ? this.nearestColor(depth) : null;
-    if (isColored && color === null) return; // it is yet to come
+    if (isColored && color === null) return; // the color image is yet to come
     this.ready = null;
     const pixels = color === null ? null : readPixels(color, { isAutomatic: true, min: 0, max: 1, window: 1 });
     const cloud = typeof pixels === "string" ? pixels : depthPoints(depth, info, pixels);

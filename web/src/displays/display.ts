@@ -24,11 +24,11 @@ export interface Status {
 /** Parts of the page that displays use. */
 export interface DisplayContext {
   readonly connection: Connection;
-  /** Namespace and remappings of the launch's rviz, which names in the file follow. */
+  /** Namespace and remappings of the launch's rviz, by which names in the file are resolved. */
   readonly names: GraphNames;
   readonly frames: FrameTree;
   readonly scene: SceneView;
-  /** Displays of the list, groups with theirs. */
+  /** All displays of the list, also those in groups. */
   readonly displays: ReadonlySignal<readonly Display[]>;
   readonly fixedFrame: ReadonlySignal<string>;
   /** Shapes of robots for the ghost of a recording. */
@@ -53,12 +53,12 @@ export abstract class Display {
   readonly statuses = signal<ReadonlyMap<string, Status>>(new Map());
   /** Object that holds all that the display draws. */
   readonly root = new Group();
-  /** Keys of the file that are not ours, kept as they were. */
+  /** Keys of the file that the page does not know, saved unchanged. */
   unknown: YamlMapping = {};
 
   constructor(protected readonly context: DisplayContext) {}
 
-  /** The topic whose rate its row shows. */
+  /** The topic whose rate the display's row shows. */
   get topic(): string | null {
     return null;
   }

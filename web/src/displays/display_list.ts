@@ -49,7 +49,7 @@ export interface DisplayList {
   save(): string;
   /** Note that the current file was saved. */
   markSaved(): void;
-  /** Number of changes that a person has made since; values that displays compute do not count. */
+  /** Number of changes by a person since the file was loaded or saved; values that displays compute do not count. */
   readonly changes: ReadonlySignal<number>;
   /** Make a change of the file that can be undone. */
   edit(title: string, redo: () => void, undo: () => void): void;

@@ -15,10 +15,10 @@ import { Arrow } from "../shapes/arrow";
 import { BillboardLines } from "../shapes/billboard_lines";
 import { TopicDisplay } from "./topic_display";
 
-/** Points of a ring, which is open by two of its parts, as rviz's. */
+/** Number of points of a ring, and of the parts of a full circle: the ring is open, as rviz's. */
 const POINTS = 30;
 const PARTS = 32;
-/** Measured on pictures of rviz: the drawn value is the effort's ratio plus this; the radius [m] grows with both. */
+/** Measured on pictures of rviz: the drawn value is the effort's ratio plus an offset, and sets the radius [m]. */
 const OFFSET = 0.05;
 const RADIUS = 0.05;
 const GROWTH = 0.5;
@@ -35,7 +35,7 @@ class EffortRing extends Group {
     super.add(this.line, this.arrow);
   }
 
-  /** `share` of the largest effort, signed; the ring lies in the group's xy plane. */
+  /** `share`: effort as a signed ratio of the largest effort; the ring lies in the group's xy plane. */
   draw(share: number, scale: number, width: number, alpha: number): void {
     const value = Math.min(1, Math.abs(share)) + OFFSET;
     const radius = RADIUS + value * scale * GROWTH;
@@ -100,7 +100,7 @@ export class Effort extends TopicDisplay<JointState> {
     super.onStart();
   }
 
-  /** Any frame, since each joint has a frame of its own and only the stamp counts. */
+  /** The fixed frame, since each joint has a frame of its own and only the stamp counts. */
   protected override frameOf(): string {
     return this.context.fixedFrame.peek();
   }

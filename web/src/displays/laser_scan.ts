@@ -11,7 +11,7 @@ import { register } from "./registry";
 import { areFinite, INVALID_FLOATS } from "../frames/valid";
 
 const TYPES = ["sensor_msgs/LaserScan"];
-/** Scans that take longer [s] get a warning, since they are shown that much later. */
+/** A scan that takes longer [s] gets a warning, since it is shown only after its last ray. */
 const LONG_SCAN_S = 1;
 const AT_ORIGIN: Transform = { position: new Vector3(), orientation: new Quaternion() };
 
@@ -48,7 +48,7 @@ class LaserScanDisplay extends CloudDisplay<LaserScan> {
 }
 
 /**
- * Points of a scan in the fixed frame, as laser_geometry projects them: of the ranges from `range_min` to below
+ * Points of a scan in the fixed frame, as laser_geometry projects them: for ranges from `range_min` to below
  * `range_max`, with the sensor's pose interpolated between the first and the last ray.
  */
 export function project(scan: LaserScan, start: Transform, end: Transform): Cloud {

@@ -53,7 +53,7 @@ export class MapDisplay extends Display {
 
   private message: OccupancyGrid | null = null;
   private map: OccupancyMap | null = null;
-  /** True while the cells are the message's own, which others read, too. */
+  /** True while the cells are the message's own bytes, which others read, too. */
   private isShared = true;
   private object: MapObject | null = null;
   private subscriptions: Subscription[] = [];

@@ -17,8 +17,8 @@ export class MessageFilter<M, T> {
   private limit = 10;
 
   /**
-   * `find` looks up what a message needs, `deliver` gets the message with it, `fail` gets the reason when a message is
-   * dropped or waits too long.
+   * `find` looks up a message's transforms, `deliver` gets the message with them, `fail` gets the reason when a
+   * message is dropped or waits too long.
    */
   constructor(
     private readonly find: (message: M) => T | NoTransform,

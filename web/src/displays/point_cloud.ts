@@ -6,7 +6,7 @@ import { CloudDisplay } from "./clouds/cloud_display";
 import { register } from "./registry";
 
 const TYPES = ["sensor_msgs/PointCloud"];
-/** A point is read by the GPU with a stride of 252 bytes at most. */
+/** The GPU reads points with a stride of at most 252 bytes. */
 const MAX_CHANNELS = 60;
 
 class PointCloudDisplay extends CloudDisplay<PointCloud> {
@@ -18,7 +18,7 @@ class PointCloudDisplay extends CloudDisplay<PointCloud> {
     const values = new Float32Array(points.length * width);
     points.forEach(({ x, y, z }, index) => values.set([x, y, z], index * width));
     channels.forEach((channel, number) => {
-      if (channel.values.length !== points.length) return; // rviz leaves such channels at 0
+      if (channel.values.length !== points.length) return; // rviz leaves a channel of another length at 0
       channel.values.forEach((value, index) => (values[index * width + 3 + number] = value));
     });
     return cloudOf(["x", "y", "z", ...channels.map(({ name }) => name)], values);

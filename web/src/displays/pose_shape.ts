@@ -26,7 +26,7 @@ export class PoseShape {
     return [color, alpha, shaftLength, shaftRadius, headLength, headRadius, axesLength, axesRadius];
   }
 
-  /** Draw along x from the origin. rviz's radii are the diameters of what it draws. */
+  /** Draw along x from the origin. rviz draws with its radii as diameters. */
   draw(): Object3D {
     if (this.isAxes.peek()) return new Axes(this.axesLength.value.peek(), this.axesRadius.value.peek());
     const arrow = new Arrow({

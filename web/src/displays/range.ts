@@ -55,7 +55,9 @@ class RangeDisplay extends HistoryDisplay<Range> {
   }
 }
 
-/** Length of the cone [m]: the range where it is within its limits; a sensor of one distance says −Inf for "met". */
+/**
+ * Length of the cone [m]: the range if it is within its limits; a fixed-distance ranger reports −Inf for a detection.
+ */
 export function displayedRange({ range, min_range, max_range }: Range): number {
   if (min_range <= range && range <= max_range) return Number.isFinite(range) ? range : 0;
   return min_range === max_range && range === -Infinity ? min_range : 0;

@@ -13,7 +13,7 @@ import { INVALID_FLOATS, isFiniteXyz, vector } from "../frames/valid";
 
 const X = new Vector3(1, 0, 0);
 const Z = new Vector3(0, 0, 1);
-/** The circle around the angular arrow is drawn from an eighth of a turn on, in steps of 1/32. */
+/** The circle around the angular arrow begins at an eighth of a turn, in steps of 1/32. */
 const CIRCLE_STEPS = 32;
 const CIRCLE_BEGIN = 4;
 

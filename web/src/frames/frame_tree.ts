@@ -16,19 +16,19 @@ export interface FrameInfo {
   readonly publisher: string | null;
 }
 
-/** Frames that were moved while time stands still: nothing publishes them again. */
+/** Motions of frames while time stands still, since nothing publishes their transforms then. */
 export interface MovedFrames {
-  /** Frame of the motions. */
+  /** Frame in which the motions are given. */
   readonly fixedFrame: string;
-  /** Motion of each frame that a body carries: its pose now times the inverse of the pose that tf has. */
+  /** Motion of each frame that a body carries: the frame's pose now times the inverse of its pose in tf. */
   readonly motions: ReadonlyMap<string, Transform>;
 }
 
-/** Frames that are drawn at one time with the simulated world. */
+/** Frames that are drawn at the same time as the simulated world. */
 export interface DrawnFrames extends FrameTree {
-  /** Time at which a frame is looked up where its newest pose is asked for, if that is later [ns]; null: the newest. */
+  /** Latest time [ns] of a frame's pose where a caller asks for the newest; null: no limit. */
   drawnAt: bigint | null;
-  /** Motions that are added where a frame's newest pose is asked for, also to the frames below; null: none. */
+  /** Motions that are applied where a caller asks for a frame's newest pose, also to its descendants; null: none. */
   moved: MovedFrames | null;
   /** Newest common time of two frames [ns]; 0n: nothing moves between them, or they are not connected. */
   newestTime(target: string, source: string): bigint;

@@ -9,11 +9,11 @@ import type { TransformTree } from "./transform_tree";
 const JUMP = 100_000_000n;
 
 /**
- * Feed from /tf and /tf_static until the subscription is closed. When the time goes back, what moves is forgotten; in
- * a new connection, where all is sent again, everything.
+ * Feed from /tf and /tf_static until the subscription is closed. When time goes back, all but static transforms are
+ * dropped; on a new connection, which sends all again, every transform.
  *
- * The time is that of /tf's own messages: decoding takes a while, so that the clock may be back before the last of them
- * came, and those of /tf_static are as old as they are.
+ * Time is read from /tf's own messages: decoding takes a while, so the clock may have gone back before the last of them
+ * arrives, and messages of /tf_static may be of any age.
  */
 export function feedTransforms(tree: TransformTree, connection: Connection, names = new GraphNames()): Subscription {
   let last = 0n;

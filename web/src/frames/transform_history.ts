@@ -68,7 +68,7 @@ export class TransformHistory {
     };
   }
 
-  /** Index of the first sample that is not older than a stamp; the newest is not. */
+  /** Index of the first sample that is not older than a stamp, which is at most the newest sample's. */
   #firstNotBefore(stamp: bigint): number {
     let low = 0;
     let high = this.#samples.length - 1;
@@ -81,7 +81,7 @@ export class TransformHistory {
   }
 
   #at(index: number): Sample {
-    return this.#samples[index] as Sample; // there is always one, and no index is outside
+    return this.#samples[index] as Sample; // there is always a sample, and every index is valid
   }
 }
 

@@ -18,7 +18,7 @@ const MAX_NAMES = 12;
 
 const LOOP = "The tf tree is invalid because it contains a loop";
 
-/** Time before the newest pose within which a frame is drawn in the past [ns]: an older time is another run's. */
+/** Largest time before the newest pose at which a frame is drawn [ns]: an older time belongs to another run. */
 const MAX_PAST = 1_000_000_000n;
 
 export class TransformTree implements DrawnFrames {
@@ -125,7 +125,7 @@ export class TransformTree implements DrawnFrames {
     return relative(toPose as Transform, fromPose as Transform);
   }
 
-  /** Pose of `from` in `to` after the motions of what carries them. */
+  /** Pose of `from` in `to` after the motions of the bodies that carry them. */
   #asMoved(to: string, from: string, pose: Transform): Transform {
     if (this.moved === null) return pose;
     const { fixedFrame, motions } = this.moved;
@@ -137,7 +137,7 @@ export class TransformTree implements DrawnFrames {
     return relative(at(ofTo, before), at(ofFrom, compose(before, pose)));
   }
 
-  /** Motion of the nearest frame, itself or above, that a body carries. */
+  /** Motion of the frame itself, or else of its nearest ancestor, that a body carries. */
   #motionOf(name: string, motions: ReadonlyMap<string, Transform>): Transform | undefined {
     const carried = this.#ancestors(name)?.find((one) => motions.has(one));
     return carried === undefined ? undefined : motions.get(carried);
@@ -228,7 +228,8 @@ function sampleOf(
   const orientation = new Quaternion(rotation.x, rotation.y, rotation.z, rotation.w);
   const length = orientation.length();
   if (parent === "" || !Number.isFinite(length + position.x + position.y + position.z)) return null;
-  // Of float32 quaternions the length is not quite 1; one of zeros, which some publishers send, is the identity.
+  // Normalized, since float32 quaternions are not quite of length 1; zeros, which some publishers send, are the
+  // identity.
   if (length > 0) orientation.normalize();
   else orientation.identity();
   return { stamp, parent, position, orientation };
@@ -236,7 +237,7 @@ function sampleOf(
 
 const IDENTITY: Transform = { position: new Vector3(), orientation: new Quaternion() };
 
-/** Pose of `inner`, which is in the frame of `outer`, in the frame that `outer` is in. */
+/** Compose two poses: `inner` is relative to `outer`; the result is relative to `outer`'s parent. */
 function compose(outer: Transform, inner: Transform): Transform {
   return {
     position: inner.position.clone().applyQuaternion(outer.orientation).add(outer.position),
@@ -244,7 +245,7 @@ function compose(outer: Transform, inner: Transform): Transform {
   };
 }
 
-/** Pose of b in a, of two poses in the same frame. */
+/** Pose of b relative to a, from their poses in the same frame. */
 function relative(a: Transform, b: Transform): Transform {
   const inverse = a.orientation.clone().invert();
   return {

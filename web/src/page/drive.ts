@@ -36,7 +36,7 @@ export class Drive {
     const hasListener = (name: string): boolean =>
       (subscribers.get(name) ?? []).some((node) => node !== session.node && !isWatcher(node));
     const isFirst = (name: string): number => Number(name !== session.drive_topic);
-    const isUntold = types.size + subscribers.size === 0; // as after a reconnection, when topics arrive before the graph
+    const isUntold = types.size + subscribers.size === 0; // after a reconnection, topics arrive before the graph
     if (isUntold || connection.state.value.kind !== "connected") return this.known;
     this.known = [...new Set([...typed, ...named].filter(hasListener))].sort(
       (a, b) => isFirst(a) - isFirst(b) || (a < b ? -1 : 1),
@@ -87,7 +87,7 @@ export class Drive {
       this.driven = this.topic.peek();
       this.timer = setInterval(() => this.send(), PERIOD);
     }
-    if (isNew) this.send(); // what moves with the pointer is sent at 10 Hz
+    if (isNew) this.send(); // a held control's changes are sent at 10 Hz
   }
 
   release(source: string): void {

@@ -64,11 +64,11 @@ export interface Commands {
 export interface PageUndo extends UndoStack {
   /** Use another stack while it is not null. */
   defer(other: ReadonlySignal<DeferredUndo | null>): void;
-  /** Record an edit when it is done; undo and redo wait for it meanwhile. */
+  /** Record an edit once it is done; undo and redo wait until then. */
   ask<T>(edit: Promise<T>): Promise<T>;
 }
 
-/** Undo stack kept elsewhere, as by the server. */
+/** Undo stack that is kept elsewhere, for example by the server. */
 export interface DeferredUndo {
   readonly undoTitle: string | null;
   readonly redoTitle: string | null;

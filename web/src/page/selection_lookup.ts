@@ -39,7 +39,7 @@ export function placed(selection: Selection | null): Exclude<Selection, { readon
   return selection?.kind === "sensor" ? { kind: "link", model: selection.model, link: selection.link } : selection;
 }
 
-/** Bodies of a selection; empty for one that is not simulated. */
+/** Bodies of a selection; empty if it is not simulated. */
 export function selectedBodies(page: Page, selected: Selection | null): readonly number[] {
   const selection = placed(selected);
   if (selection === null) return [];

@@ -11,7 +11,7 @@ const TOPIC = "trundle/session";
 /** Fields that identify a session, also if the page cannot read the rest. */
 const identity = struct<{ readonly kind: string; readonly version: string }>(() => ({ kind: text, version: text }));
 
-/** Current session. `onOther` is called when it becomes one of another kind. */
+/** Current session; `onOther` is called when the server starts a session of another kind. */
 export function liveSession(
   first: PageSession,
   connection: Connection,

@@ -30,7 +30,7 @@ export function isBoolean(value: unknown): value is boolean {
   return typeof value === "boolean";
 }
 
-/** A guard for one of these words. */
+/** A type guard that accepts one of these words. */
 export function isOneOf<T extends string>(...words: readonly T[]): (value: unknown) => value is T {
   return (value): value is T => words.some((word) => word === value);
 }

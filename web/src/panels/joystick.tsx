@@ -87,7 +87,7 @@ function axis(state: JoystickState, index: number): number {
   return state.joy.value.axes[index] ?? 0;
 }
 
-/** The page's sticks have right and up positive, joy has left and forward. */
+/** On the page's sticks, right and up are positive; in joy, left and forward are. */
 function move(state: JoystickState, [across, along]: readonly [number, number], x: number, y: number): void {
   state.setAxis(across, x === 0 ? 0 : -x);
   state.setAxis(along, y);

@@ -13,11 +13,11 @@ export interface PanelProps {
 export interface Panel {
   readonly id: string;
   readonly title: string;
-  /** Programs of ROS whose node opens it: `rqt_plot`. */
+  /** ROS programs whose node in a launch opens the panel: `rqt_plot`. */
   readonly programs: readonly string[];
   readonly component: ComponentType<PanelProps>;
   /** Buttons at the right of the dock's row of tabs. */
   readonly actions?: ComponentType<PanelProps>;
-  /** Height of its contents [px], null before they are shown; absent: it fills the height that it gets. */
+  /** Height of the contents [px], null before they are shown; absent: the panel fills any height. */
   readonly contentHeight?: (page: Page) => ReadonlySignal<number | null>;
 }

@@ -1,4 +1,4 @@
-/** Parts that several panels have. */
+/** Components that several panels use. */
 
 import type { Signal } from "@preact/signals";
 import type { ComponentChildren, JSX, RefObject } from "preact";

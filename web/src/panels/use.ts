@@ -39,13 +39,13 @@ export function useWidth(element: { readonly current: Element | null }): number 
   return width;
 }
 
-/** True while an element can be seen: a tab in the background is not. */
+/** True while an element is visible, for example not in a background tab. */
 export function useShown(element: { readonly current: Element | null }): boolean {
   const [isShown, setShown] = useState(false);
   useEffect(() => {
     const { current } = element;
     if (current === null) return;
-    const observer = new IntersectionObserver((entries) => setShown(entries.at(-1)?.isIntersecting === true)); // the newest is last
+    const observer = new IntersectionObserver((entries) => setShown(entries.at(-1)?.isIntersecting === true)); // the last entry is the newest
     observer.observe(current);
     return () => observer.disconnect();
   }, [element]);

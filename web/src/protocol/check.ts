@@ -1,11 +1,11 @@
-/** Checks of messages from outside: that a value is what its type says. `generated/page_checks.ts` is made of them. */
+/** Checks that a value from outside has its declared type; `generated/page_checks.ts` is made of these functions. */
 
 import { parseJson, type Json } from "./json";
 
 /** The page cannot read a message; the text is a sentence for a person. */
 export class MessageFault extends Error {}
 
-/** Returns the value as a T; throws a `Mismatch` if it is none. */
+/** Returns the value as a T; throws a `Mismatch` if it is not a T. */
 export type Check<T> = (value: unknown) => T;
 
 /** Mismatch of a value with its type; `path` is the field or item at fault, such as `links[2].name`; empty: the value itself. */
@@ -85,7 +85,7 @@ export function nullable<T>(check: Check<T>): Check<T | null> {
 
 /* @__NO_SIDE_EFFECTS__ */
 export function optional<T>(check: Check<T>): Check<T> {
-  return (value) => (value === undefined ? (value as T) : check(value)); // of a field that may be missing
+  return (value) => (value === undefined ? (value as T) : check(value)); // accepts a missing field
 }
 
 /* @__NO_SIDE_EFFECTS__ */

@@ -14,7 +14,7 @@ export type ConnectionState =
 /** How late the page is. */
 export interface Lag {
   readonly seconds: number;
-  /** When it began, as `Date.now()` [ms]. */
+  /** When the lag began, as `Date.now()` [ms]. */
   readonly since: number;
 }
 
@@ -84,22 +84,24 @@ export interface Connection {
   readonly topics: ReadonlySignal<ReadonlyMap<string, TopicInfo>>;
   readonly services: ReadonlySignal<ReadonlyMap<string, ServiceInfo>>;
   readonly parameters: ReadonlySignal<ReadonlyMap<string, ParameterValue>>;
-  /** Parameters whose numbers are floating-point even where they are whole; setting one keeps it so. */
+  /** Parameters with floating-point numbers, even whole ones; setting such a parameter keeps its type. */
   readonly floatParameters: ReadonlySignal<ReadonlySet<string>>;
   readonly graph: ReadonlySignal<GraphInfo>;
   /** Delay of velocity commands [s]; 0: they arrive in time. */
   readonly driveDelay: ReadonlySignal<number>;
-  /** Messages of the server about itself, newest last; one with an id takes the place of the earlier one with it. */
+  /**
+   * Messages of the server about itself, newest last; a message with an id replaces the earlier one with the same id.
+   */
   readonly notices: ReadonlySignal<
     readonly { readonly level: "info" | "warning" | "error"; readonly text: string; readonly id?: string | undefined }[]
   >;
-  /** ROS time now [ns]: of /clock where it is used, else the wall's. */
+  /** ROS time now [ns]: from /clock where it is used, else wall time. */
   now(): bigint;
 
   /**
    * Decoded messages of a topic, whether or not it is there yet. A message that cannot be decoded goes to `onError`.
-   * One subscription of the socket serves all subscribers of a topic; when decoding lags, the oldest are dropped
-   * unless `every`.
+   * One subscription of the socket serves all subscribers of a topic; when decoding lags, the oldest messages are
+   * dropped unless `every`.
    */
   subscribe<M = RosMessage>(
     topic: string,
@@ -107,24 +109,24 @@ export interface Connection {
     options?: { readonly every?: boolean; readonly onError?: (text: string) => void },
   ): Subscription;
   /**
-   * Raw payload: of the server's own channels (`trundle/…`), or of a topic that is only to be measured.
-   * Where `onPayload` throws a `MessageFault`, a notice tells.
+   * Raw payloads: of the server's own channels (`trundle/…`), or of a topic that is only measured.
+   * A `MessageFault` from `onPayload` becomes a notice.
    */
   subscribeRaw(topic: string, onPayload: (payload: DataView) => void): Subscription;
-  /** Messages of a channel of the server's own that are JSON; of one that cannot be read, a notice tells. */
+  /** Messages of one of the server's JSON channels; a message that cannot be read becomes a notice. */
   subscribeJson<T extends keyof Channels>(topic: T, onMessage: (message: Channels[T]) => void): Subscription;
   statistics(topic: string): TopicStatistics;
 
-  /** Text of a type's definition with all that it contains; rejects with a sentence where it is not known. */
+  /** Text of a type's definition with those of all types in it; rejects with a sentence if the type is unknown. */
   definition(type: string): Promise<string>;
   publish(topic: string, type: string, message: RosMessage): void;
   callService(name: string, request: RosMessage): Promise<RosMessage>;
   setParameter(name: string, value: ParameterValue | undefined): void;
   /** Bytes of a `package://`, `model://` or `file://` file. */
   fetchAsset(uri: string): Promise<ArrayBuffer>;
-  /** A request to what started the page; rejects with a sentence. */
+  /** Send a request to the page's server; rejects with a sentence. */
   request<N extends RequestName>(name: N, fields: Fields<N>): Promise<Answer<N>>;
-  /** Connect for driving, so that the first command is not late. */
+  /** Open the connection for driving, so that the first command is not late. */
   prepareDriving(): void;
   /** Drive at velocities [m/s, rad/s] for a second, or until `release`. */
   drive(topic: string, linear: number, angular: number): void;

@@ -20,7 +20,7 @@ export class DriveLink {
     private readonly onFault: (text: string) => void,
   ) {}
 
-  /** Connect, so that the first command is not late. */
+  /** Open the connection, so that the first command is not late. */
   open(): DrivePort {
     if (this.#port !== null) return this.#port;
     const port = this.openPort();

@@ -10,7 +10,9 @@ const PERIOD = 100; // ms
 export const LEASE = 1000;
 /** Delay from which on commands are late [ms]. */
 const LATE = 250;
-/** Limit of commands without a receipt: on a link that stalls, few old commands arrive before the release. */
+/**
+ * Largest number of unacknowledged commands, so that few old commands arrive before the release after a link stalls.
+ */
 const MAX_PENDING = 4;
 
 interface DriveCommand {
@@ -36,10 +38,10 @@ export class DriveService {
   #renewedAt = 0;
   #timer: ReturnType<typeof setInterval> | undefined;
   #number = 0;
-  /** Commands without a receipt, oldest first. */
+  /** Unacknowledged commands, oldest first. */
   #pending: { readonly number: number; readonly sentAt: number }[] = [];
   #roundTrip = 0;
-  /** Time since when a command could not be sent; null: the newest one was. */
+  /** Time from which on commands could not be sent; null: the newest command was sent. */
   #unsentSince: number | null = null;
   #delay = 0;
 
@@ -99,7 +101,7 @@ export class DriveService {
   }
 
   #receive(data: string | ArrayBuffer): void {
-    if (typeof data !== "string") return; // the subprotocol has only text
+    if (typeof data !== "string") return; // the subprotocol has only text frames
     const frame = read(data, "a message", serverOperation);
     if (frame.op === "status") this.report({ kind: "fault", text: frame.message });
     if (frame.op !== "trundle/driven") return;

@@ -97,7 +97,7 @@ export class FoxgloveConnection implements Connection {
     options: { readonly every?: boolean; readonly onError?: (text: string) => void } = {},
   ): Subscription {
     return this.#subscriptions.subscribe(topic, {
-      onMessage: onMessage as (received: Received<unknown>) => void, // the caller says what the topic's type is
+      onMessage: onMessage as (received: Received<unknown>) => void, // M is the caller's assertion of the topic's type
       onError: options.onError,
       every: options.every ?? false,
     });
@@ -163,7 +163,7 @@ export class FoxgloveConnection implements Connection {
     this.#socket.send({ op: "trundle/presence", selection });
   }
 
-  /** Handle a frame; a notice reports one that cannot be read. */
+  /** Handle a frame; a frame that cannot be read becomes a notice. */
   #receive(data: string | ArrayBuffer): void {
     try {
       const message = typeof data === "string" ? data : this.#parts.join(data);
@@ -217,7 +217,7 @@ export class FoxgloveConnection implements Connection {
   #receiveBinary(data: ArrayBuffer): void {
     const frame = readBinary(data);
     if (frame.op === "message") {
-      // the server tells the time at 20 Hz, and messages in between are newer
+      // messages in between are newer than the server's time, which comes at 20 Hz
       if (this.#time !== null && frame.time > this.#time) this.#time = frame.time;
       this.#subscriptions.receive(frame, this.#clock.sentAt(frame.serverTime));
     } else if (frame.op === "mark") {
@@ -242,7 +242,7 @@ export class FoxgloveConnection implements Connection {
     this.#subscriptions.restart();
     this.#calls.restart();
     this.#publications.restart();
-    this.#socket.established(); // listeners subscribe at once, only to channels of this server
+    this.#socket.established(); // last: listeners subscribe at once, to this server's channels
     this.#system.restart(capabilities);
   }
 }

@@ -1,4 +1,4 @@
-/** Long messages that the server sends in parts, so that short ones pass them. */
+/** Long messages, which the server sends in parts so that short messages can overtake them. */
 
 import { fault } from "./check";
 

@@ -13,7 +13,7 @@ const LEVELS = ["info", "warning", "error"] as const;
 export class Notices {
   readonly list = signal<readonly (Notice & { readonly id: string | undefined })[]>([]);
 
-  /** Add one; one with an `id` takes the place of the earlier one with it. */
+  /** Add a message; a message with an `id` replaces the earlier one with the same id. */
   add(level: Notice["level"] | number, text: string, id?: string): void {
     const name = typeof level === "number" ? (LEVELS[level] ?? "error") : level;
     const others = this.list.peek().filter((notice) => id === undefined || notice.id !== id);

@@ -22,7 +22,7 @@ export class Publications {
     this.#channels.clear();
   }
 
-  /** Publish a message; rejects with a sentence when it does not fit its type, or that is not known. */
+  /** Publish a message; rejects with a sentence if the message does not fit its type, or the type is unknown. */
   async publish(topic: string, type: string, message: RosMessage): Promise<void> {
     const payload = writeMessage(await this.#schema(type), message);
     if (!this.send(messageFrame(this.#channel(topic, type), payload))) throw new Error("the page is not connected");

@@ -54,7 +54,7 @@ class Reader {
 
   message(schema: Schema): RosMessage {
     if (--this.#objects < 0) throw new Error(`${schema.name}: more values than a message of this size has`);
-    // Identifiers begin with a letter, so that none is __proto__; others become properties of the object's own.
+    // Field names begin with a letter, so none is __proto__; other names of Object.prototype become own properties.
     const message: Record<string, RosValue> = {};
     for (const field of schema.fields) message[field.name] = this.#field(schema, field);
     return message;

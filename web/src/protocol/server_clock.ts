@@ -1,4 +1,4 @@
-/** When the server sent what arrives, by this page's clock, and how late the page is. */
+/** Converts the server's times to this page's clock, and tells how late the page is. */
 
 import { signal } from "@preact/signals";
 
@@ -8,16 +8,16 @@ import type { Lag } from "./connection";
 const TICK = 250;
 /** The server sends something at least each second; a longer silence is a lag [ms]. */
 const MAX_SILENCE = 1500;
-/** Lag from which on it is shown, and below which it is no longer shown [ms]. */
+/** A lag is shown from the first limit on, and until it falls below the second [ms]. */
 const SHOWN = 500;
 const HIDDEN = 300;
-/** Time after which the shortest delay is forgotten, at most twice as long: the clocks drift apart [ms]. */
+/** Time for which the shortest delay is remembered, at most twice as long, since the clocks drift apart [ms]. */
 const MEMORY = 60_000;
 
 export class ServerClock {
-  /** Null: what is shown is at most half a second old. */
+  /** Null: the shown data are at most half a second old. */
   readonly lag = signal<Lag | null>(null);
-  /** Shortest differences of arrival and server's time in this period and the one before [ms]. */
+  /** Shortest differences between arrival and server's time, in this period and in the one before [ms]. */
   #offset = Infinity;
   #olderOffset = Infinity;
   #turnAt = 0;
@@ -45,7 +45,7 @@ export class ServerClock {
 
   /**
    * Time at which the server had a message, by `performance.now()` [ms].
-   * The fastest messages of the last minutes are taken to have come at once.
+   * The fastest messages of the last minutes are assumed to arrive without delay.
    */
   sentAt(serverTime: number): number {
     const now = performance.now();

@@ -1,11 +1,11 @@
-/** The worker's side of the page's socket: opens it, and passes on what it sends and receives. */
+/** The worker's side of the page's socket: opens the socket, and passes frames on in both directions. */
 
 export type SocketRequest =
   | { readonly kind: "open"; readonly socket: number; readonly url: string; readonly protocols: readonly string[] }
   | { readonly kind: "send"; readonly socket: number; readonly frame: string | ArrayBuffer }
   | { readonly kind: "close"; readonly socket: number };
 
-/** What came of a socket; without a frame, it was closed. */
+/** Event of a socket: a received frame; without a frame, the socket was closed. */
 export interface SocketEvent {
   readonly socket: number;
   readonly frame: string | ArrayBuffer | null;

@@ -1,4 +1,4 @@
-/** Worker that holds the page's socket: a browser stops to receive while the thread of a socket is busy drawing. */
+/** Worker that holds the page's socket: a browser stops receiving while the socket's thread is busy drawing. */
 
 import { SocketService, type SocketRequest } from "./socket_service";
 

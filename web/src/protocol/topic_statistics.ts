@@ -39,7 +39,7 @@ export class ArrivalStatistics {
     let used = 1;
     let bytes = this.#size(1);
     const limit = Math.min(this.count, SAMPLES);
-    // The last two count however old they are: rates below 1/5 Hz have a figure, too.
+    // The last two messages always count, however old, so that rates below 1/5 Hz have a figure, too.
     while (used < limit && (used < 2 || this.#time(used + 1) >= now - WINDOW)) bytes += this.#size(++used);
     const span = last - this.#time(used);
     const silent = now - last > Math.max(WINDOW, (2 * span) / (used - 1));

@@ -15,7 +15,7 @@ export type ServerBinary =
       readonly serverTime: number;
       readonly payload: DataView;
     }
-  /** What came before is echoed to have been handled. */
+  /** The page echoes a mark once it has handled all frames before it. */
   | { readonly op: "mark"; readonly mark: number; readonly serverTime: number }
   | { readonly op: "time"; readonly time: bigint }
   | { readonly op: "serviceResponse"; readonly call: number; readonly payload: DataView }

@@ -1,4 +1,4 @@
-/** Sockets that a worker holds, as if they were here. */
+/** Sockets that a worker holds, with the interface of a socket of this thread. */
 
 import type { Socket } from "./reconnecting_socket";
 import type { SocketEvent, SocketRequest } from "./socket_service";

@@ -34,7 +34,7 @@ function mergeSequence(document: Document, old: YAMLSeq, value: readonly Yaml[])
   return old;
 }
 
-/** Index of the old entry of the same class and name; of the same class, if none has the name. */
+/** Index of the old entry of the same class and name, else of the first entry of the same class. */
 function findEntry(old: readonly unknown[], entry: Yaml): number {
   if (!isMapping(entry)) return old.findIndex((node) => isScalar(node) && isSame(node, entry));
   const matches = (node: unknown, keys: readonly string[]): boolean =>
@@ -51,7 +51,7 @@ function shortName(name: unknown): unknown {
     .replace(/ \((rviz|rviz_default_plugins)\)$/, "");
 }
 
-/** True if a scalar says the value, in whichever spelling: `0.030` is 0.03, and `~` an empty text. */
+/** True if a scalar has the value in any spelling: `0.030` is 0.03, and `~` an empty text. */
 function isSame(node: Scalar, value: Yaml): boolean {
   if (node.value === value) return true;
   if (node.value === null && value === "") return true;

@@ -52,7 +52,7 @@ export abstract class Property<T> {
   /** Set the value from the file; false: not of this kind, unchanged. */
   abstract decode(yaml: Yaml): boolean;
 
-  /** The value and the children's, as rviz nests them: a mapping with `Value` where there are children. */
+  /** The value with the children's values, as rviz nests them: a property with children is a mapping with `Value`. */
   save(): Yaml | undefined {
     const encoded = this.encode();
     if (this.version.value === 0 || this.children.length === 0) return encoded;
@@ -176,7 +176,7 @@ export class EnumProperty extends Property<string> {
     this.choices = signal(choices);
     this.isOpen = options.open ?? false;
   }
-  /** True if other words than the choices are values too. */
+  /** True if words other than the choices are valid values, too. */
   readonly isOpen: boolean;
   encode(): Yaml {
     return this.value.value;

@@ -62,7 +62,7 @@ function readYaml(text: string): readonly [Document, Yaml] {
     if (error !== undefined) throw error;
     return [document, document.toJS() as Yaml];
   } catch (error) {
-    // aliases without an anchor or without end, and nesting without end, are errors of other kinds
+    // endless aliases or nesting, and aliases without an anchor, raise other errors
     throw new RvizFileError(`The .rviz file is not YAML: ${(error as Error).message.split("\n")[0] ?? ""}`);
   }
 }
@@ -95,7 +95,7 @@ function isOldConfig(text: string): boolean {
   return /^\[Display\d+\]/m.test(text) || /^[A-Za-z]+(\\ [A-Za-z]+)+=/m.test(text);
 }
 
-/** The file of a page that was started without one. */
+/** The content of a page that was started without a file. */
 export const DEFAULT_FILE = `Panels:
   - Class: rviz/Displays
     Name: Displays

@@ -7,7 +7,7 @@ const sphere = new Sphere();
 interface Around {
   /** Radius of a sphere about the body's origin [m]. */
   readonly radius: number;
-  /** Number of the body's children at that time. */
+  /** Number of the body's children when the radius was computed. */
   readonly children: number;
 }
 

@@ -4,13 +4,13 @@ import type { DraftInfo, DraftPart } from "../protocol/generated/page_messages";
 
 /** Tags and names from the model down: ["link", "base", "sensor", "eye"]; empty: the model itself. */
 export type PartPath = readonly string[];
-/** Value of a field: null numbers stay unchanged; null: the default. */
+/** Value of a field; null: the default; a null in a list leaves that number unchanged. */
 export type FieldValue = string | readonly (number | null)[] | null;
 
 /** Number of the draft's first link among the bodies of the scene. */
 const FIRST_BODY = 65536;
 
-/** The body that a part is drawn as; null: it is no link. */
+/** The body that is drawn for a part; null: the part is no link. */
 function bodyOf(part: DraftPart): number | null {
   return part.link === null ? null : FIRST_BODY + part.link;
 }
@@ -27,7 +27,7 @@ function samePath(a: PartPath, b: PartPath): boolean {
   return a.length === b.length && a.every((step, i) => step === b[i]);
 }
 
-/** The link that a part is or is on; null: it is on none. */
+/** The part itself if it is a link, else the link that it is on; null: it is on no link. */
 export function linkAround(path: PartPath): PartPath | null {
   for (let end = path.length; end > 0; end -= 2) if (path[end - 2] === "link") return path.slice(0, end);
   return null;
@@ -39,7 +39,7 @@ export function pathOfLink(name: string): PartPath {
   return scopes.flatMap((scope, i) => [i === scopes.length - 1 ? "link" : "model", scope]);
 }
 
-/** Bodies of a part: of a link its own, of a joint its child's, of the model all. */
+/** Bodies of a part: for a link its body, for a joint its child's body, for the model all bodies. */
 export function bodiesOfPart(draft: DraftInfo | null, path: PartPath): readonly number[] {
   if (draft === null) return [];
   const all = draft.parts.flatMap((part) => bodyOf(part) ?? []);

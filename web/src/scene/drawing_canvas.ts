@@ -3,7 +3,7 @@
 /** Largest number of device pixels per pixel, and in the whole picture. */
 const MAX_PIXEL_RATIO = 2;
 const MAX_PIXELS = 5e6;
-/** Largest number of device pixels if the CPU draws one picture after the other. */
+/** Largest number of device pixels while the CPU draws changing pictures. */
 const MAX_QUICK_PIXELS = 1e6;
 
 export interface DrawingCanvas {
@@ -28,7 +28,7 @@ export function drawingCanvas(): DrawingCanvas {
   return canvas;
 }
 
-/** Device pixels per pixel of a canvas [px]; few of them if the CPU draws one picture after the other. */
+/** Device pixels per pixel of a canvas [px]; fewer while the CPU draws changing pictures. */
 export function pixelRatio(width: number, height: number, isQuick: boolean): number {
   return Math.min(
     window.devicePixelRatio,
@@ -40,7 +40,7 @@ export function pixelRatio(width: number, height: number, isQuick: boolean): num
 function create(): DrawingCanvas {
   const slow = withContext(true);
   if (slow.context === null || drawsOnCpu(slow.context)) return slow;
-  slow.context.getExtension("WEBGL_lose_context")?.loseContext(); // only at its creation can a context smooth edges
+  slow.context.getExtension("WEBGL_lose_context")?.loseContext(); // edge smoothing is fixed when a context is created
   return withContext(false);
 }
 

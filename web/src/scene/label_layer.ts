@@ -12,7 +12,7 @@ const NEAR = 14;
 const SIZE = 12;
 const PADDING = 8;
 
-/** Rest after a look at what covers an anchor [ms]. */
+/** Pause between two checks whether an anchor is covered [ms]. */
 const LOOK_AGAIN = 300;
 
 class SceneLabel implements Label {
@@ -54,12 +54,12 @@ interface VisibleLabel extends LabelRequest {
   measured: string;
   measuredDetail: string;
   isMeasuredBoxed: boolean;
-  /** True if something stood before its anchor at the last look, and the time of that [ms]. */
+  /** Result of the last check: true if a surface covered the label's anchor; and the time of that check [ms]. */
   isCovered: boolean;
   lookedAt: number;
 }
 
-/** Tells if something stands between a camera and a point, nearer to it than the point by more than a distance [m]. */
+/** True if a surface covers a point, nearer to the camera than the point by more than a distance [m]. */
 export type IsCovered = (point: Vector3, camera: Camera, reach: number) => boolean;
 
 export class LabelSet {
@@ -97,7 +97,7 @@ export class LabelLayer {
   private font = "";
   private size: PictureSize = { width: 0, height: 0 };
   private pixelRatio = 1;
-  /** True if there was and is no label. */
+  /** True if neither the last picture nor this one has a label. */
   private isEmpty = true;
 
   constructor(private readonly set: LabelSet) {
@@ -198,7 +198,7 @@ export class LabelLayer {
     }
   }
 
-  /** True if something stands before a frame's anchor; looks again only after a while. */
+  /** True if a surface covers a frame's anchor; it is checked again only after a while. */
   private isCovered(entry: VisibleLabel, camera: Camera): boolean {
     const { anchor, reach } = entry.label;
     const now = performance.now();
@@ -281,7 +281,7 @@ export class LabelLayer {
   }
 }
 
-/** A frame's whole name is in its box alone. */
+/** Text of a label; only the box of a hovered frame has the frame's full name. */
 function textOf({ text, full, color }: SceneLabel, isBoxed: boolean): string {
   return isBoxed && full !== "" && color === undefined ? full : text;
 }

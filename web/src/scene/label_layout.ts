@@ -2,7 +2,7 @@
  * Places of labels in the picture.
  *
  * A label stands beside its anchor at the end of a leader, where a band of 20 px is free of other labels and anchors;
- * one without such a place is not shown. The hovered one always is.
+ * a label without such a place is not shown. The hovered label always is.
  */
 
 import type { Area } from "./free_area";
@@ -29,9 +29,9 @@ export interface LabelRequest {
   width: number;
   /** Depth in the picture, −1…1: nearer labels have priority. */
   distance: number;
-  /** True: has priority and is always placed, as is a person's name. */
+  /** True: the label has priority and is always placed, like a person's name. */
   hovered: boolean;
-  /** Rank among those of which few are placed; null: it is none of them. */
+  /** Rank among labels of which only a few are placed; null: not ranked. */
   rank: number | null;
   /** Index of its corner; the last corner is tried first, so that labels do not jump; −1: not placed. */
   corner: number;
@@ -98,7 +98,7 @@ function sort(requests: LabelRequest[]): void {
   }
 }
 
-/** Order: hovered ones, then by rank, then by distance, which is below 1. */
+/** Sort key: hovered labels first, then by rank, then by depth, which is below 1. */
 function order({ hovered, rank, distance }: LabelRequest): number {
   return hovered ? -Infinity : distance + 2 * (rank ?? 0);
 }

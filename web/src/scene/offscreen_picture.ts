@@ -1,12 +1,12 @@
 /**
- * Picture that is drawn beside a context's canvas, and copied to it when it is done.
+ * Picture that is drawn outside a context's canvas, and copied to the canvas when it is done.
  *
- * A browser that draws on the CPU reads a changed canvas back, and its page stands still until all drawing is done.
- * The canvas gets the size of the picture with it, so that it is never empty.
+ * A browser that draws on the CPU reads a changed canvas back, which blocks the page until all drawing is done.
+ * The canvas is resized together with the copy, so that it is never empty.
  */
 
 export class OffscreenPicture {
-  /** Has the size of the picture being drawn; the renderer sets it. */
+  /** Canvas whose size, set by the renderer, is that of the picture being drawn. */
   readonly canvas: OffscreenCanvas;
   private readonly bind: WebGL2RenderingContext["bindFramebuffer"];
   private framebuffer: WebGLFramebuffer | null = null;
@@ -35,7 +35,7 @@ export class OffscreenPicture {
     this.create();
   }
 
-  /** True while a picture is drawn. */
+  /** True while a picture is being drawn. */
   get isBegun(): boolean {
     return this.sync !== null;
   }
@@ -53,14 +53,14 @@ export class OffscreenPicture {
     context.bindRenderbuffer(context.RENDERBUFFER, null);
   }
 
-  /** Note that all drawing of a picture was issued; one that was begun before is dropped. */
+  /** Note that all drawing commands of a picture were issued; an unfinished earlier picture is dropped. */
   begin(): void {
     this.context.deleteSync(this.sync);
     this.sync = this.context.fenceSync(this.context.SYNC_GPU_COMMANDS_COMPLETE, 0);
     this.context.flush();
   }
 
-  /** True if the picture that was begun is drawn. */
+  /** True if the picture is completely drawn. */
   isDone(): boolean {
     return (
       this.sync !== null &&
@@ -68,7 +68,7 @@ export class OffscreenPicture {
     );
   }
 
-  /** Copy the picture to the canvas; the page waits if it is not done. */
+  /** Copy the picture to the canvas; blocks the page if the picture is not done. */
   show(): void {
     const { context, width, height } = this;
     const { canvas } = context;

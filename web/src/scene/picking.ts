@@ -41,7 +41,7 @@ export interface PictureSize {
   readonly height: number;
 }
 
-/** Entry of `userData` that keeps an object and those below it out of picking. */
+/** Entry of `userData` that excludes an object and its descendants from picking. */
 export const NOT_PICKED = "notPicked";
 
 export class Picker {
@@ -66,7 +66,7 @@ export class Picker {
     return best === null ? null : { point: best.point, object: best.object, index: best.index };
   }
 
-  /** True if a surface stands before a point of the fixed frame, nearer to the camera by more than a distance [m]. */
+  /** True if a surface covers a point of the fixed frame, nearer to the camera by more than a distance [m]. */
   isCovered(roots: readonly Object3D[], camera: Camera, point: Vector3, reach: number): boolean {
     const { x, y } = point.clone().project(camera);
     this.raycaster.setFromCamera(new Vector2(x, y), camera);

@@ -1,9 +1,9 @@
-/** Quality of the next picture: where the CPU draws, quick while something changes, and sharp once at rest. */
+/** Quality of the next picture: a CPU draws coarse pictures while the scene changes, and a sharp one afterwards. */
 
 import { pixelRatio } from "./drawing_canvas";
 import type { PictureSize } from "./picking";
 
-/** Time without a change after which a picture is drawn once more, sharply [ms]. */
+/** Time without a change after which a sharp picture is drawn [ms]. */
 const REST = 300;
 /** Samples per pixel of smooth edges. */
 const SAMPLES = 4;
@@ -11,7 +11,7 @@ const SAMPLES = 4;
 export class PictureQuality {
   /** True if the picture being drawn has all pixels of the screen, and smooth edges. */
   isSharp = false;
-  /** Time of the picture since which nothing has changed [ms]. */
+  /** Time of the last change [ms]. */
   private changedAt = 0;
 
   /** `isSlow`: the CPU draws. */

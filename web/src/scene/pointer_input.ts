@@ -53,8 +53,8 @@ export class SceneInput {
   private readonly aborts = new AbortController();
 
   /**
-   * `tool`: offers an event to the current tool; true: it was the tool's. `menu`: opens the menu of what is under a point
-   * of the scene [px], or of the selection.
+   * `tool`: offers an event to the current tool; true: it was the tool's. `menu`: opens the menu of what is under a
+   * point of the scene [px], or of the selection.
    */
   constructor(
     private readonly scene: ThreeScene,
@@ -97,9 +97,9 @@ export class SceneInput {
     const isFirst = this.fingers.size === 0;
     this.longPress.end();
     this.fingers.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
-    this.pinch(); // begins, or ends, here and not at the next frame, which may be late
+    this.pinch(); // here, since the next frame may be late
     if (isFirst) this.scene.panes.press(event.offsetX, event.offsetY);
-    this.views.active.peek().interrupt(); // before the tool, which may move the camera itself
+    this.views.active.peek().interrupt(); // before the tool: the tool may move the camera
     if (isFirst) {
       this.button = event.button;
       this.distance = 0;

@@ -64,11 +64,11 @@ export interface Label {
   detail: string;
   /** Full text, shown while the label is hovered. */
   full: string;
-  /** Frames of a robot: few of them are named, those of the lowest rank first; null: it is none of them. */
+  /** Rank of a robot's frame: only the few of lowest rank have labels; null: no robot's frame. */
   rank: number | null;
   /** True: it shows only while it is hovered. */
   isQuiet: boolean;
-  /** Distance in front of the anchor that does not cover it, as the anchor's own shape does not [m]. */
+  /** Distance in front of the anchor in which a surface, such as the anchor's own, does not cover the label [m]. */
   reach: number;
   remove(): void;
 }
@@ -138,6 +138,6 @@ export interface SceneView {
   ray(x: number, y: number): Ray;
   /** Point at which the ray through a point of the element meets the plane z = 0 of the fixed frame. */
   pickGround(x: number, y: number): Vector3 | null;
-  /** `color`: token of a color that the label is filled with. */
+  /** `color`: token of the label's background color. */
   addLabel(anchor: Object3D, text: string, color?: `--${string}`): Label;
 }

@@ -62,7 +62,7 @@ export class ThreeScene implements SceneView {
   private readonly steps = new Set<DrawStep>();
   private readonly stops: (() => void)[] = [];
   private isChanged = true;
-  /** False until its element has a size. */
+  /** False until the element has a size. */
   private isPlaced = false;
   private last = performance.now();
   private frame = 0;
@@ -70,12 +70,12 @@ export class ThreeScene implements SceneView {
   private pixelRatio = 0;
   readonly isSlow: boolean;
   readonly quality: PictureQuality;
-  /** Null where drawing holds nothing up. */
+  /** Null where drawing does not block the page. */
   private readonly offscreen: OffscreenPicture | null;
   /** Canvas whose size the renderer sets. */
   private readonly sized: HTMLCanvasElement | OffscreenCanvas;
 
-  /** `host`: positioned element that it fills. */
+  /** `host`: positioned element that the canvas fills. */
   constructor(private readonly host: HTMLElement) {
     const { element, context, isSlow } = drawingCanvas();
     this.element = element;
@@ -85,7 +85,7 @@ export class ThreeScene implements SceneView {
     this.sized = this.offscreen?.canvas ?? element;
     this.renderer = this.createRenderer(context);
     this.element.tabIndex = 0;
-    this.element.setAttribute("role", "application"); // it has keys of its own
+    this.element.setAttribute("role", "application"); // the 3D view handles keys itself
     this.element.setAttribute("aria-label", "3D view");
     Object.assign(this.element.style, {
       position: "absolute",
@@ -198,7 +198,7 @@ export class ThreeScene implements SceneView {
       return null;
     }
     const renderer = new WebGLRenderer({ canvas: this.sized, context });
-    renderer.debug.checkShaderErrors = import.meta.env.DEV; // reading them waits until each program is linked
+    renderer.debug.checkShaderErrors = import.meta.env.DEV; // reading errors waits until each program is linked
     return renderer;
   }
 
@@ -225,8 +225,8 @@ export class ThreeScene implements SceneView {
     this.stops.push(
       () => observer.disconnect(),
       effect(() => {
-        this.panes.shown.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- other panes are another picture
-        this.panes.areas.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- and other places
+        this.panes.shown.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- draws again when the panes change
+        this.panes.areas.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- or their areas
         this.ground.visible = this.grid.value;
         const background = new Color(this.background.value);
         this.ground.setBackground(background);
@@ -263,7 +263,7 @@ export class ThreeScene implements SceneView {
     if (offscreen?.isBegun === true) {
       const isDone = offscreen.isDone();
       if (isDone) this.show();
-      if (isDone || !this.quality.isSharp) return; // a change drops a sharp picture that is being drawn
+      if (isDone || !this.quality.isSharp) return; // a change replaces an unfinished sharp picture
     }
     const elapsed = Math.min(1, (now - this.last) / 1000); // no jump after a hidden tab
     this.last = now;
@@ -285,7 +285,7 @@ export class ThreeScene implements SceneView {
       sized.width === Math.floor(width * ratio) &&
       sized.height === Math.floor(height * ratio);
     if (!isSame && this.renderer !== null) {
-      this.renderer.setDrawingBufferSize(width, height, ratio); // at once: each new size waits for the graphics processor
+      this.renderer.setDrawingBufferSize(width, height, ratio); // one call: each new size waits for the graphics processor
     }
     this.offscreen?.fit(this.quality.samples);
     this.pixelRatio = ratio;

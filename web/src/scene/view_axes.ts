@@ -1,4 +1,4 @@
-/** The axes at the top right: they show how the camera stands, and a press on an end looks from that side. */
+/** The axes at the top right: they show the camera's orientation; a press on an end looks from that side. */
 
 import { Matrix4, Vector3 } from "three";
 

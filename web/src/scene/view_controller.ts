@@ -32,7 +32,7 @@ export interface ViewPane {
 
 export interface Views {
   readonly layout: Signal<PaneLayout>;
-  /** Splits the scene as a file says; a page that keeps to a layout of its own sets another one. */
+  /** Called with a file's layout, which it applies; a page that keeps its own layout replaces this function. */
   onFileLayout: (layout: PaneLayout) => void;
   /** Panes that are shown. */
   readonly panes: ReadonlySignal<readonly ViewPane[]>;
@@ -54,7 +54,7 @@ export interface Views {
   frameInAll(box: Box3): void;
   focus(point: Vector3): void;
   lookFrom(side: SixSides): void;
-  /** Switch between perspective and none, around the same point. */
+  /** Switch between a perspective and an orthographic view of the same focal point. */
   toggleProjection(): void;
   /** Look through a simulated camera on a link, `model::link`. */
   lookThrough(camera: CameraInfo, link: string): void;
@@ -62,7 +62,7 @@ export interface Views {
   ride(target: string, from: Triple): void;
   /** Keep a body (`model::link`) or frame in the middle; null: stop. */
   follow(target: string | null): void;
-  /** The `Views` mapping of an .rviz file; several panes are under a key of ours, which rviz passes over. */
+  /** The `Views` mapping of an .rviz file; several panes have a key of Trundle's, which rviz ignores. */
   save(): YamlMapping;
   load(yaml: YamlMapping): string[];
 }

@@ -31,9 +31,10 @@ export class CovarianceProperty extends BoolProperty {
 const FLAT = 0.001;
 const WIDEST = (89 * Math.PI) / 180;
 /**
- * Per disc: rows of the two rotations that spread it, and the turn whose x and y are the directions they spread it in.
+ * Per disc: rows of the two rotations whose variances spread it, and the rotation whose x and y are the directions of
  *
- * A rotation about y moves the roll disc, which stands on x, along z; one about z moves it along -y (up to one sign).
+ * A rotation about y moves the roll disc, whose normal is x, along z; a rotation about z moves it along -y (up to
+ * sign).
  */
 const DISCS = [
   { rows: [4, 5], turn: basis(new Vector3(0, 0, 1), new Vector3(0, -1, 0)) },
@@ -46,7 +47,7 @@ function basis(x: Vector3, y: Vector3): Quaternion {
 }
 
 /**
- * Place it at the pose's position; the parent's axes are those of the message's frame.
+ * Shapes of a covariance, to be placed at the pose's position with the axes of the message's frame.
  *
  * A pose whose variances of z, roll and pitch are not positive is planar, as rviz has it.
  */

@@ -1,7 +1,7 @@
 /**
  * Material of rviz's shapes: one light that shines as the camera looks, and nothing else, in the colors' own numbers.
  *
- * Measured on pictures of rviz: a face that looks along the camera is as bright as its color, one aside is black.
+ * Measured on pictures of rviz: a face toward the camera is as bright as its color, a face at right angles is black.
  * The lights of the simulated world do not reach it, so that a marker has the same color in every world.
  */
 
@@ -78,11 +78,11 @@ void main() {
   gl_FragColor = color;
 }`;
 
-/** Below this, rviz blends and no longer writes depth. */
+/** Alpha below which rviz blends and no longer writes depth. */
 const OPAQUE = 0.9998;
 
 export interface ShapeMaterialOptions {
-  /** `soft`: as rviz shades the spheres of clouds and lists; `flat`: no light. */
+  /** `soft`: as rviz shades the spheres of clouds and lists; `flat`: without shading. */
   readonly shading?: "lit" | "soft" | "flat";
   readonly side?: Side;
   /** Each instance has an attribute `instanceRgba`, each vertex `vertexRgba`; they multiply the color. */
@@ -133,7 +133,7 @@ export class ShapeMaterial extends ShaderMaterial {
   }
 
   setBlended(blended: boolean): void {
-    if (blended !== this.transparent) this.needsUpdate = true; // its program writes alpha, or does not
+    if (blended !== this.transparent) this.needsUpdate = true; // opaque and blended materials have different programs
     this.transparent = blended;
     this.depthWrite = !blended;
   }

@@ -12,12 +12,14 @@ import {
 
 /** Height of a line on the canvas [px]. */
 const LINE_PX = 64;
-/** rviz draws Liberation Sans of 24 px with whole-pixel advances; lines hold its tallest and its lowest letter. */
+/**
+ * rviz draws Liberation Sans of 24 px with whole-pixel advances; a line has room for the tallest and the lowest letter.
+ */
 const FONT_PX = 24;
 const EM = FONT_PX / 28;
-/** Base line below the top of a line, as a share of it. */
+/** Distance of the base line below the top of a line, per height of the line. */
 const BASE = 23.5 / 28;
-/** Letters are drawn on a grid of pixels there, which makes them lower. */
+/** Vertical scale: rviz fits letters to whole pixels, which makes them lower. */
 const SQUASH = 17 / 18;
 const FONT = `${LINE_PX * EM}px "Liberation Sans", Arial, Helvetica, sans-serif`;
 /** rviz's gap between lines [m]. */
@@ -58,7 +60,7 @@ export class TextBillboard extends Sprite {
   }
 }
 
-/** White letters on nothing, as large as they are; lines begin `pitch` below each other [px]. */
+/** Canvas with white letters on a transparent background, as large as the text; lines are `pitch` apart [px]. */
 function drawText(lines: readonly string[], pitch: number): HTMLCanvasElement {
   const canvas = document.createElement("canvas");
   const pen = canvas.getContext("2d");
@@ -68,7 +70,7 @@ function drawText(lines: readonly string[], pitch: number): HTMLCanvasElement {
   const widths = lines.map((line) => Array.from(line).reduce((sum, letter) => sum + advance(letter), 0));
   canvas.width = Math.min(LARGEST_PX, Math.max(1, Math.ceil(Math.max(...widths))));
   canvas.height = Math.min(LARGEST_PX, Math.round((lines.length - 1) * pitch + LINE_PX));
-  pen.font = FONT; // a canvas forgets it with its size
+  pen.font = FONT; // resizing a canvas resets its font
   pen.fillStyle = "white";
   pen.scale(1, SQUASH);
   lines.forEach((line, index) => {

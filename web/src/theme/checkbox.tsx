@@ -19,7 +19,7 @@ export function Checkbox({ label, checked, disabled, tabIndex, onChange }: Check
       checked={checked}
       disabled={disabled}
       tabIndex={tabIndex}
-      onClick={(event) => onChange(event.currentTarget.checked)} // `change` comes after a row's click has drawn the old state again
+      onClick={(event) => onChange(event.currentTarget.checked)} // not `change`: by then a row's click has redrawn the old state
     />
   );
 }

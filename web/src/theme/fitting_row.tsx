@@ -1,4 +1,4 @@
-/** Rows that stay on one line: what has no room gives way, lowest rank first, to the row's menu. */
+/** Rows that stay on one line: parts without room are hidden, lowest rank first, and appear in the row's menu. */
 
 import type { ComponentChildren, JSX, RefObject } from "preact";
 import { useLayoutEffect } from "preact/hooks";
@@ -6,20 +6,20 @@ import { useLayoutEffect } from "preact/hooks";
 import { MenuButton } from "./menu";
 import type { MenuItem } from "./menu_list";
 
-/** Entry of a row's menu, shown while the part of this name has given way. */
+/** Entry of a row's menu, shown while the part of this name is hidden. */
 export interface GivenItem extends MenuItem {
   readonly part: string;
 }
 
 interface FittingPartProps {
-  /** Parts of the lowest rank give way first. */
+  /** Parts of the lowest rank are hidden first. */
   readonly rank: number;
   /** Name of its entry in the row's menu; absent: it has none. */
   readonly part?: string;
   readonly children: ComponentChildren;
 }
 
-/** Part of a row that gives way. */
+/** Part of a row that is hidden where there is no room. */
 export function FittingPart({ rank, part, children }: FittingPartProps): JSX.Element {
   return (
     <span class="fits" data-rank={rank} data-part={part}>
@@ -35,7 +35,7 @@ interface MoreProps {
   readonly items: () => readonly GivenItem[];
 }
 
-/** Menu of the parts that gave way; it shows while there are any. */
+/** Menu of the hidden parts; it shows while there are any. */
 export function More({ row, label, class: extra = "", items }: MoreProps): JSX.Element {
   const given = (): readonly MenuItem[] =>
     items().filter(({ part }) => row.current?.querySelector(`[data-given][data-part="${part}"]`) !== null);
@@ -47,11 +47,11 @@ export function useFittingRow(row: RefObject<HTMLElement | null>): void {
   useLayoutEffect(() => {
     const element = row.current;
     if (element === null) return undefined;
-    const { offsetParent: around } = element; // the row may be as wide as this allows
+    const { offsetParent: around } = element; // limits the row's width
     const sizes = new ResizeObserver((entries) => {
       const isRow = entries.some(({ target }) => target === element || target === around);
       if (isRow) fit(element);
-      else requestAnimationFrame(() => fit(element)); // at once, siblings' new sizes would be an error of the observer
+      else requestAnimationFrame(() => fit(element)); // later: resizing siblings now would make the observer loop
     });
     const observe = (): void => {
       sizes.disconnect();

@@ -53,7 +53,7 @@ export function Menu({ items, label, anchor, place, onClose }: MenuProps): JSX.E
 
 interface ListProps extends Pick<MenuProps, "items" | "place" | "onClose"> {
   readonly label: string | undefined;
-  /** Goes back to the list that it was opened from. */
+  /** Goes back to the list from which it was opened. */
   readonly onBack?: () => void;
 }
 

@@ -2,10 +2,10 @@
 
 import type { JSX } from "preact";
 
-/** Characters that stay at the end, and length up to which a name is cut at its end. */
+/** Number of characters kept at the end, and the length up to which a name is cut at its end instead. */
 const TAIL = 8;
 const SHORT = 14;
-/** Scripts whose letters join, and would be torn apart within a word. */
+/** Scripts whose letters join, so that a word must not be cut. */
 const JOINED = /[\p{Script=Arabic}\p{Script=Syriac}\p{Script=Mongolian}\p{Script=Devanagari}\p{Script=Bengali}]/u;
 
 export function Name({ text, class: extra = "n" }: { readonly text: string; readonly class?: string }): JSX.Element {
@@ -24,7 +24,7 @@ export function Name({ text, class: extra = "n" }: { readonly text: string; read
   );
 }
 
-/** Index at which the end begins that stays; the text's length: there is none. */
+/** Index at which the kept end begins; the text's length: the name is cut at its end. */
 export function cutAt(text: string): number {
   if (text.length <= SHORT) return text.length;
   if (JOINED.test(text)) return /[\s_./:-][\p{N}\p{P}]*$/u.exec(text)?.index ?? text.length;

@@ -21,7 +21,7 @@ export interface TextFieldProps {
 export function TextField(props: TextFieldProps): JSX.Element {
   const { label, value, check = () => null, onCommit, placeholder, disabled, before, after, onKey } = props;
   const [draft, setDraft] = useState<string | null>(null);
-  /** Value shown on focus or click; a changing number would clear the selection before anything is typed. */
+  /** Value at focus or click, which stays shown: a changing number would clear the selection before a person types. */
   const [committed, setCommitted] = useState<string | null>(null);
   const input = useRef<HTMLInputElement>(null);
   const fault = draft === null ? null : check(draft);
@@ -30,7 +30,7 @@ export function TextField(props: TextFieldProps): JSX.Element {
     setDraft(null);
     setCommitted(null);
   };
-  /** Commit the browser's text, since a key may come before the last one is drawn. */
+  /** Commit the browser's text, since a key may come before the last typed letter is drawn. */
   const commit = (text: string): void => {
     if (text !== (committed ?? value) && check(text) === null) onCommit(text);
     showValue();

@@ -81,7 +81,7 @@ export function Tree(props: TreeProps): JSX.Element {
       {rows.map((row) => {
         const isInOrder = row === inOrder;
         const known = drawn.current.get(row);
-        if (known?.isInOrder === isInOrder) return known.element; // a row that is the same object is not drawn again
+        if (known?.isInOrder === isInOrder) return known.element; // an unchanged row object is not drawn again
         const element = drawRow(row, isInOrder, setFocused, latest);
         drawn.current.set(row, { isInOrder, element });
         return element;

@@ -42,10 +42,10 @@ export abstract class BaseTool implements Tool {
   readonly navigates: ReadonlySignal<string | null> = signal(null);
   readonly properties: Property<unknown>[] = [];
   readonly hint = signal("");
-  /** Keys of the file that are not ours, kept as they were. */
+  /** Keys of the file that the page does not know, saved unchanged. */
   private unknown: YamlMapping = {};
 
-  /** `finish`: called when its work is done, so that the previous tool is used again. */
+  /** `finish` is called when the tool's work is done, so that the previous tool is used again. */
   constructor(
     protected readonly context: ToolContext,
     protected readonly finish: () => void,

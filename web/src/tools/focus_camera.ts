@@ -14,7 +14,7 @@ export class FocusCamera extends BaseTool {
   }
 
   deactivate(): void {
-    // nothing is kept
+    // the tool has no state
   }
 
   pointer({ kind, button, x, y }: PointerInput): boolean {

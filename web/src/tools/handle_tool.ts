@@ -1,4 +1,4 @@
-/** Base of the tools with handles at the selection: a drag of one moves a model, a light or a joint. */
+/** Base of the tools with handles at the selection: dragging a handle moves a model, a light or a joint. */
 
 import { computed, effect, type ReadonlySignal } from "@preact/signals";
 import { Matrix4, Quaternion, Vector3, type Camera, type Ray } from "three";
@@ -19,7 +19,7 @@ import type { PointerInput } from "../scene/pointer_input";
 import { findModel } from "../page/selection_lookup";
 import type { WorldEditor } from "../page/world_editor";
 
-/** Wall seconds after which a resting drag is sent again; after one second the server releases it. */
+/** Wall seconds after which an unchanged drag is sent again; after one second without a request the server ends it. */
 const RENEWAL = 0.3;
 const MODES = {
   axis: InteractionMode.moveAxis,
@@ -82,7 +82,7 @@ export abstract class HandleTool extends BaseTool {
       scene.onTick((elapsed) => this.tick(elapsed)),
       effect(() => {
         const target = this.target.value;
-        if (target !== null && target.axis !== null) this.editor.world.joints.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- a joint's drag begins at its position
+        if (target !== null && target.axis !== null) this.editor.world.joints.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- follows the joint, whose position a drag starts from
       }),
       effect(() => {
         const target = this.target.value;

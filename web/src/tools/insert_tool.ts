@@ -9,9 +9,9 @@ import type { Inserter } from "../page/tool";
 import { InsertionGhost } from "./insertion_ghost";
 import type { PointerInput } from "../scene/pointer_input";
 
-/** Distance from which on the ground counts as sky [m]. */
+/** Distance beyond which the ground counts as sky [m]. */
 const FARTHEST = 500;
-/** Heights in the free part of the view, from its middle down, at which the ground is looked for. */
+/** Heights in the view's free part, from its middle down, at which a ray to the ground is tried. */
 const DOWN = [0.5, 0.6, 0.7, 0.8, 0.9];
 
 export class InsertTool extends BaseTool implements Inserter {

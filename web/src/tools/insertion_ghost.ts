@@ -29,7 +29,7 @@ const HEIGHTS = { point: 2, spot: 2, directional: 5 } as const;
 export class InsertionGhost extends Group {
   private isDisposed = false;
 
-  /** `onChange`: called when more of it is loaded. */
+  /** `onChange` is called when more of the preview is loaded. */
   constructor(
     item: Insertable,
     private readonly color: Color,

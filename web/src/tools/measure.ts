@@ -1,4 +1,4 @@
-/** rviz's Measure: the distance between two points. */
+/** rviz's Measure: measures the distance between two clicked points. */
 
 import { BufferAttribute, BufferGeometry, Line, LineBasicMaterial, Object3D, Vector3 } from "three";
 

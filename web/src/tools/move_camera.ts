@@ -14,7 +14,7 @@ export class MoveCamera extends BaseTool {
   }
 
   deactivate(): void {
-    // nothing is kept
+    // the tool has no state
   }
 
   pointer(): boolean {

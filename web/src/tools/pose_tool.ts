@@ -12,7 +12,7 @@ import type { PointerInput } from "../scene/pointer_input";
 
 /** rviz's arrow [m]. */
 const PROPORTIONS = { shaftLength: 2, shaftDiameter: 0.2, headLength: 0.5, headDiameter: 0.35 };
-/** Length of the arrow as a ratio of the height that the camera sees there; rviz's has a fixed size. */
+/** Length of the arrow as a ratio of the height that the camera sees there; rviz's arrow has a fixed size. */
 const LENGTH = 0.15;
 
 export abstract class PoseTool extends BaseTool {
@@ -20,7 +20,7 @@ export abstract class PoseTool extends BaseTool {
   protected abstract readonly color: Rgb;
   abstract readonly topic: TopicProperty;
   override readonly navigates = computed(() => this.context.names.resolve(this.topic.value.value));
-  /** True: another pose follows this one. */
+  /** True: the tool stays on for another pose. */
   protected get repeats(): boolean {
     return false;
   }

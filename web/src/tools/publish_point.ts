@@ -22,7 +22,7 @@ export class PublishPoint extends BaseTool {
   }
 
   deactivate(): void {
-    // nothing is kept
+    // the tool has no state
   }
 
   pointer({ kind, button, x, y }: PointerInput): boolean {

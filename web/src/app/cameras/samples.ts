@@ -1,4 +1,6 @@
-/** Single pictures of a topic with rests between them: a simulated camera is drawn only while somebody subscribes. */
+/**
+ * Single pictures of a topic with pauses between them: a simulated camera is rendered only while somebody subscribes.
+ */
 
 import { effect, signal } from "@preact/signals";
 
@@ -33,11 +35,11 @@ export class CameraSamples implements PictureSource {
       this.fault.value = stream.fault.value;
       const picture = stream.picture.value;
       if (picture === null) return;
-      const image = document.createElement("canvas"); // the stream's own picture ends with it
+      const image = document.createElement("canvas"); // closing the stream frees its own picture
       drawPicture(image, picture);
       this.picture.value = { ...picture, image };
       this.timer = setTimeout(() => this.take(), this.pause);
-      queueMicrotask(() => this.rest()); // not while the stream notifies of its picture
+      queueMicrotask(() => this.rest()); // later, since the stream is still notifying
     });
   }
 

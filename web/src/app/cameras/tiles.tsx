@@ -48,7 +48,7 @@ export function CameraTiles({ shell }: { readonly shell: Shell }): JSX.Element |
   );
 }
 
-/** Rest after each picture of a tile that nothing makes live, and of a live one where the CPU draws the scene [ms]. */
+/** Pause after each picture [ms]: of a tile that is not live, and of a live one while the CPU draws the scene. */
 const REST = 1000;
 const SLOW_REST = 200;
 
@@ -179,7 +179,7 @@ interface CanvasProps {
   readonly onDrawn: () => void;
 }
 
-/** A new source's first picture takes the place of the old one's last. */
+/** Canvas with a source's pictures; the old source's last picture stays until the new source has one. */
 function Canvas({ source, name, onDrawn }: CanvasProps): JSX.Element {
   const canvas = useRef<HTMLCanvasElement>(null);
   useEffect(

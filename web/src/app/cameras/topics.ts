@@ -11,7 +11,7 @@ export interface CameraTopic {
   readonly topic: string;
   /** Update rate of a simulated camera [Hz]; null: not simulated. */
   readonly rate: number | null;
-  /** Display that draws the picture; absent: the topic's own picture. */
+  /** Display that draws the scene over the topic's picture; absent: the tile shows the topic's picture as it is. */
   readonly display?: PictureDisplay;
 }
 
@@ -39,7 +39,7 @@ export function tileKey({ topic, display }: CameraTopic): string {
   return display === undefined ? topic : `${display.className} ${display.name.value} ${topic}`;
 }
 
-/** Compressed topic, if there is one and the page comes over a network, which raw pictures would fill. */
+/** Compressed topic, if there is one and the page is loaded over a network, which raw pictures would overload. */
 export function streamedTopic(topic: string, topics: ReadonlyMap<string, TopicInfo>, host: string): string {
   const compressed = `${topic}/compressed`;
   const isNear = /^(localhost|127\.|\[::1\])/.test(host);

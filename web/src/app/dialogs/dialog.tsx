@@ -15,7 +15,7 @@ export interface DialogProps {
 export function Dialog({ title, class: extra = "", onClose, children }: DialogProps): JSX.Element {
   const dialog = useRef<HTMLDialogElement>(null);
   useLayoutEffect(() => {
-    // at once: what is typed next belongs to the dialog
+    // before the next key: it belongs to the dialog
     const before = document.activeElement;
     dialog.current?.showModal();
     return () => {
@@ -30,7 +30,7 @@ export function Dialog({ title, class: extra = "", onClose, children }: DialogPr
       onClose={onClose}
       onPointerDown={(event) => event.target === event.currentTarget && onClose()}
       onKeyDown={(event) => {
-        if (event.currentTarget.open) event.stopPropagation(); // one that was just closed may have the focus until the next frame
+        if (event.currentTarget.open) event.stopPropagation(); // a closed dialog may keep the focus until the next frame
       }}
     >
       <div class="tabs">

@@ -13,7 +13,7 @@ export function Palette({ shell }: { readonly shell: Shell }): JSX.Element {
   const text = useSignal("");
   const at = useSignal(0);
   const list = useRef<HTMLDivElement>(null);
-  const matches = useComputed(() => search(shell.commands.all.value, text.value)); // keys may come before the list is drawn
+  const matches = useComputed(() => search(shell.commands.all.value, text.value)); // computed, since Enter may come before the list is drawn
   const close = (): void => {
     shell.dialog.value = null;
   };

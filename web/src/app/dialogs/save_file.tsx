@@ -57,7 +57,7 @@ export function SaveFile({
       <form
         onSubmit={(event) => {
           event.preventDefault();
-          if (isUsable && exists.peek() === null) void run(() => save(whole(), false)); // Enter replaces nothing
+          if (isUsable && exists.peek() === null) void run(() => save(whole(), false)); // Enter never replaces a file
         }}
       >
         {offered === null ? (

@@ -1,4 +1,4 @@
-/** Displays as rows of the tree: name, status, rate and color; below them the reason of a fault and the properties. */
+/** Displays as rows of the tree: name, status, rate and color; below each, the reason of a fault and the properties. */
 
 import type { JSX } from "preact";
 

@@ -16,12 +16,12 @@ import { change } from "./property_editor";
 import { RvizFoot } from "./rviz_foot";
 import type { Shell } from "../shell";
 
-const REFRESH = 1000; // ms; rates
+const REFRESH = 1000; // ms between updates of the rates
 
 export function DisplaysPage({ shell }: { readonly shell: Shell }): JSX.Element {
   const { page } = shell;
   const { displays } = page;
-  const adding = useSignal<boolean | null>(null); // default: open if no file sets displays and there is room
+  const adding = useSignal<boolean | null>(null); // null: open if no file sets displays and there is room
   const isOffering = page.session.rviz === null && page.session.kind !== "simulation" && !shell.layout.isPhone.value;
   const isAdding = adding.value ?? (isOffering && displays.offers.value.length > 0);
   const renaming = useSignal<Display | null>(null);

@@ -25,7 +25,7 @@ import { Select } from "../../theme/select";
 import { TextField } from "../../theme/text_field";
 import type { Page } from "../../page/page";
 
-/** Set a property from a file's value, undoable; values of another kind change nothing. */
+/** Set a property from a file's value, undoable; a value of the wrong kind changes nothing. */
 export function change(page: Page, property: Property<unknown>, yaml: Yaml): void {
   const before = property.value.peek();
   page.displays.edit(
@@ -140,7 +140,7 @@ export function vectorOf(text: string): Triple | null {
   return parts.length === 3 && x != null && y != null && z != null ? [x, y, z] : null;
 }
 
-/** `r; g; b` of a text in that form or as `#rrggbb`. */
+/** Color as `r; g; b`, from a text in that form or `#rrggbb`; null: neither. */
 export function colorOf(text: string): string | null {
   if (/^#[0-9a-f]{6}$/i.test(text.trim())) return fromHex(text.trim());
   const parts = vectorOf(text.replaceAll(",", ";"));
@@ -155,7 +155,7 @@ function fromHex(text: string): string {
   return [1, 3, 5].map((at) => parseInt(text.slice(at, at + 2), 16)).join("; ");
 }
 
-/** Topics of these types first, then none: a topic of another type cannot be shown. */
+/** Topics that have one of these types; no types: all topics. */
 function topicChoices(page: Page, types: readonly string[]): readonly Choice[] {
   return [...page.connection.topics.peek().values()]
     .filter((topic) => types.length === 0 || types.includes(topic.type))

@@ -12,7 +12,7 @@ export interface RowsOf {
   readonly onToggle: (key: string, open: boolean) => void;
 }
 
-/** Rows of properties that are visible now, and of those below open ones. */
+/** Rows of the visible properties, and of the children of open rows. */
 export function propertyRows(
   properties: readonly Property<unknown>[],
   parent: string,
@@ -22,7 +22,7 @@ export function propertyRows(
   return properties.flatMap((property, index) => {
     if (property.options.visible?.value === false) return [];
     const key = `${parent}/${index}.${property.name}`;
-    const hasChildren = property.version.value >= 0 && property.children.length > 0; // rows follow children that come and go
+    const hasChildren = property.version.value >= 0 && property.children.length > 0; // reading `version` follows added and removed children
     const open = hasChildren ? rows.isOpen(key) : undefined;
     const below = open === true ? propertyRows(property.children, key, depth + 1, rows) : [];
     return [propertyRow(property, key, depth, open, rows), ...below];

@@ -43,13 +43,13 @@ export function rvizFile({ openedFile, page }: Shell): RvizFileInfo | null {
   return openedFile.value ?? page.session.rviz;
 }
 
-/** Name for a file that is new: the robot's, else the page's. */
+/** Name for a new file: the robot's name, else the page's title. */
 export function newName({ robot, page }: Shell): string {
   const name = robot.value ?? page.session.title.replace(/\.\w+$/, "");
   return `${name.replace(/[\s/\\]+/g, "_")}.rviz`;
 }
 
-/** Write the file that the page was started with, or the one that was saved here. */
+/** Write the file that the page was started with, or that the person saved last. */
 export function save(shell: Shell): void {
   const { connection, displays } = shell.page;
   const text = displays.save();

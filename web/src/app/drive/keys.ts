@@ -73,14 +73,17 @@ function driveKey(event: KeyboardEvent): DriveInput | undefined {
   const onDisc = event.target instanceof Element && event.target.closest(".disc") !== null;
   if (!onDisc && takesKeys(event.target, event.key)) return undefined;
   const key = event.key.toLowerCase();
-  const physical = event.code.replace("Key", "").toLowerCase(); // where letters are not Latin
+  const physical = event.code.replace("Key", "").toLowerCase(); // for keyboards without Latin letters
   const latin = /^[a-z]$/.test(key) || key.length > 1 || !/^[a-z]$/.test(physical) ? key : physical;
   return event.shiftKey ? undefined : (WASD[latin] ?? (onDisc ? TELEOP[latin] : undefined));
 }
 
 const PAD_PERIOD = 50; // ms
 
-/** The left stick of any gamepad, read by a timer, as slow pictures would hold up its release; it must have been at rest once, so that a stuck one does not drive. */
+/**
+ * Drive by the left stick of any gamepad. A timer reads it, since slow pictures would delay its release; a stick drives
+ * only after it was once at rest, so that a stuck stick does not drive.
+ */
 function listenToGamepads(drive: Drive): () => void {
   let timer: ReturnType<typeof setInterval> | undefined;
   const rested = new Set<number>();

@@ -15,7 +15,7 @@ export function DriveView({ shell }: { readonly shell: Shell }): JSX.Element | n
   const { page, layout } = shell;
   const { drive, session } = page;
   const pads = !session.joystick;
-  useEffect(() => listenToDriveKeys(drive, { pads }), [drive, pads]); // not at every new session, which would release held keys
+  useEffect(() => listenToDriveKeys(drive, { pads }), [drive, pads]); // by fields, since a new session must not release held keys
   const topic = drive.topic.value;
   if (topic === null) return null;
   const command = drive.command.value;

@@ -1,4 +1,4 @@
-/** Tree of the edited model, which replaces the world's, with the drawer of new parts below it. */
+/** Tree of the edited model, in place of the world's tree, with the drawer of new parts below it. */
 
 import { useSignal, useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
@@ -107,7 +107,7 @@ function selectionOf({ part }: DraftPart): Selection {
 }
 
 function rows(draft: DraftInfo, toggled: ReadonlyMap<string, boolean>, selected: string | null): readonly TreeRow[] {
-  const isOpen = (part: PartPath): boolean => toggled.get(keyOf(part)) ?? part.length === 0; // at first the model alone
+  const isOpen = (part: PartPath): boolean => toggled.get(keyOf(part)) ?? part.length === 0; // at first only the model's row is open
   const shown = draft.parts.filter(({ part }) => ancestorsOf(part).every(isOpen));
   return shown.map((part) => {
     const key = keyOf(part.part);

@@ -41,7 +41,7 @@ function numbersOf(value: DraftField["value"]): readonly number[] | null {
   return Array.isArray(value) ? (value as readonly number[]) : null;
 }
 
-/** Array that sets one of several numbers; null leaves a number as it is. */
+/** Numbers of which one is set; null leaves a number as it is. */
 function only(length: number, index: number, value: number): readonly (number | null)[] {
   return Array.from({ length }, (_, i) => (i === index ? value : null));
 }
@@ -58,7 +58,7 @@ interface CellProps {
   readonly onSet: (value: number | null) => void;
 }
 
-/** A number that may be left to its default. */
+/** Cell of a number; empty, it has its default. */
 function NumberCell({ label, unit, value, placeholder, min, max, before, onSet }: CellProps): JSX.Element {
   return (
     <span class="cell">

@@ -29,7 +29,7 @@ export class Insertion {
   readonly models = signal<readonly ModelEntry[] | null>(null);
   readonly consentRequest = signal<CodeConsent | null>(null);
   readonly upload: ModelUpload;
-  /** Item whose position is typed, where there is no 3D view; null: none. */
+  /** Item whose position a person types, in a page without a 3D view; null: none. */
   readonly typed = signal<Insertable | null>(null);
 
   constructor(private readonly context: InsertionContext) {

@@ -1,4 +1,4 @@
-/** Lessons: the open one, its step, and what of it is done. */
+/** Lessons: the open lesson, its step, and the checks that are fulfilled. */
 
 import { batch, computed, effect, signal, untracked } from "@preact/signals";
 
@@ -7,7 +7,7 @@ import type { Lesson, LessonEntry, LessonStep } from "../../protocol/generated/p
 import type { Layout } from "../layout";
 import { probe, watchProbes, type Progress, type Watched } from "./probe";
 
-/** What lessons need of the page's shell. */
+/** Parts of the page's shell that lessons use. */
 interface Parts extends Watched {
   readonly layout: Layout;
 }
@@ -17,7 +17,7 @@ export interface OpenLesson {
   readonly lesson: Lesson;
 }
 
-/** What a browser remembers of a lesson: its step, and the keys of the checks that were fulfilled. */
+/** State of a lesson that a browser remembers: its step, and the keys of the checks that were fulfilled. */
 interface Remembered {
   readonly step: number;
   readonly done: readonly string[];
@@ -25,7 +25,7 @@ interface Remembered {
 
 const NOTHING: Remembered = { step: 0, done: [] };
 const OPEN = "lesson";
-/** Time in which what a lesson needs may come [ms]. */
+/** Time that a lesson's needs have to be fulfilled before they count as missing [ms]. */
 const COMING = 2000;
 
 export class Lessons {
@@ -40,7 +40,7 @@ export class Lessons {
   readonly done = signal<ReadonlySet<string>>(new Set());
   /** Progress of the step's checks, in their order. */
   readonly progress = signal<readonly Progress[]>([]);
-  /** True if what the lesson needs is here. */
+  /** True if the lesson's needs are fulfilled, or may still be. */
   readonly hasNeeds = signal(true);
   /** Reason why a lesson could not be opened. */
   readonly fault = signal<string | null>(null);
@@ -56,7 +56,7 @@ export class Lessons {
     });
   }
 
-  /** Open the lesson of the session, or that which was open when the page was left, once the page is connected. */
+  /** Once the page is connected, open the session's lesson, or the one that was open when the person left the page. */
   start(): void {
     const { connection, session } = this.shell.page;
     const left = recall(OPEN, null, (value): value is string | null => typeof value === "string");
@@ -64,7 +64,7 @@ export class Lessons {
     if (name === null) return;
     const stop = connection.state.subscribe(({ kind }) => {
       if (kind !== "connected") return;
-      queueMicrotask(() => stop()); // also if it is defined already
+      queueMicrotask(() => stop()); // later: `stop` is not yet defined in the first call
       void this.open(name, { isRecalled: session.lesson === null });
     });
   }
@@ -97,7 +97,7 @@ export class Lessons {
     });
   }
 
-  /** Open a lesson at the step where it was left; one that is only recalled may be gone. */
+  /** Open a lesson at the step where the person left it; `isRecalled`: no fault if the lesson no longer exists. */
   async open(name: string, { isRecalled = false } = {}): Promise<void> {
     await this.attempt(async () => {
       const { lesson } = await this.shell.page.connection.request("lesson", { name });
@@ -191,7 +191,7 @@ function keyOf(name: string): string {
   return `lesson.${name}`;
 }
 
-/** Key of a check that stays while the lesson's file is edited elsewhere. */
+/** Key of a check, which stays the same when other parts of the lesson's file are edited. */
 export function checkKey(step: LessonStep, index: number, check: number): string {
   return `${index} ${step.checks[check]?.sentence}`;
 }

@@ -25,14 +25,14 @@ const ON_SCENE: Partial<Readonly<Record<PagePart, string>>> = {
 const AROUND = 3;
 const PERIOD = 200; // ms
 
-/** Selectors of a part, the best first: the part, and what opens or uncovers it. */
+/** Selectors for a part, the best first: the part itself, then controls that open or uncover it. */
 function selectorsOf(part: PagePart): readonly string[] {
   const own = ON_SCENE[part];
   if (own !== undefined) return [own, ".bar .more", ".sheet .grab"];
   return [`.panel [data-tab="${part}"]`, `[data-tab-panel-id="${part}"]`, '.dock [aria-label="Open a panel"]'];
 }
 
-/** Box of the first element of a part that is visible. */
+/** Box of a part's first visible element. */
 function boxOf(part: PagePart): Box | null {
   for (const selector of selectorsOf(part)) {
     const element = document.querySelector(selector);

@@ -1,4 +1,4 @@
-/** Probes of a lesson's checks: what of the page fulfills each. */
+/** Probes, which tell whether the page's state fulfills a lesson's checks. */
 
 import { effect, signal, type ReadonlySignal } from "@preact/signals";
 
@@ -11,7 +11,7 @@ import type { LessonStep } from "../../protocol/generated/page_messages";
 import { isWatcher } from "../../protocol/watchers";
 import { fixed } from "../../theme/format";
 
-/** What checks are about. */
+/** Parts of the page that probes read. */
 export interface Watched {
   readonly page: Page;
   /** Name of the robot. */
@@ -22,13 +22,13 @@ export type Check = LessonStep["checks"][number]["check"];
 
 export interface Progress {
   readonly done: boolean;
-  /** How far it is, or why it is not fulfilled; may be empty. */
+  /** Measured progress, or the reason why the check is not fulfilled; may be empty. */
   readonly detail: string;
 }
 
-/** Follows a check from its creation on. */
+/** Follows a check from the probe's creation on. */
 export interface Probe {
-  /** Progress now; reads signals, of which a change may change it. */
+  /** Progress now; it changes when a signal that `poll` reads changes. */
   poll(): Progress;
   close(): void;
 }
@@ -36,7 +36,7 @@ export interface Probe {
 /** Returns why the check's file does not load; null: it loads. */
 export type AskFile = () => Promise<string | null>;
 
-/** Nodes of pages, and of rviz, whose place they take. */
+/** Nodes of pages and of rviz, which a page replaces. */
 const PAGES = /^\/(rviz|trundle_page)/;
 /** Time between questions about a file [ms]. */
 const FILE_PERIOD = 1500;
@@ -95,7 +95,7 @@ function framePosition(page: Page, reference: string, frame: string): Position |
   return found instanceof NoTransform ? null : found.position.toArray();
 }
 
-/** Probe of the distance [m] from where something was first seen. */
+/** Probe of the distance [m] from the place where an object was first seen. */
 function distanceProbe(distance: number, position: () => Position | null): Probe {
   let start: Position | null = null;
   return {
@@ -160,7 +160,7 @@ function fileProbe(askFile: AskFile): Probe {
   };
 }
 
-/** Poll probes a few times a second and whenever what they read changes; returns a function that stops. */
+/** Poll probes a few times a second, and whenever a signal that they read changes; returns a function that stops. */
 export function watchProbes(probes: readonly Probe[], onProgress: (progress: readonly Progress[]) => void): () => void {
   const polls = signal(0);
   const stop = effect(() => {

@@ -93,7 +93,7 @@ export function isSilence({ level, text }: Pick<Notice, "level" | "text">): bool
 const PLACE = /^(\S+:\d+): /;
 const MAX_PLACES = 8;
 
-/** One notice for those that are equal but for their places, with their number and the other places. */
+/** Merge notices that differ only in their places into one, with their number and the other places. */
 function equalOnce(notices: readonly Notice[]): readonly Notice[] {
   const equal = new Map<string, Notice[]>();
   for (const notice of notices) {

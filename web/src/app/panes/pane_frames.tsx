@@ -48,7 +48,7 @@ function PaneName({
   readonly pane: ViewPane;
   readonly isActive: boolean;
 }): JSX.Element {
-  const title = useMemo(() => computed(() => paneTitle(pane.current.value)), [pane]).value; // drawn again only if its text changes
+  const title = useMemo(() => computed(() => paneTitle(pane.current.value)), [pane]).value; // computed: drawn again only if the text changes
   const { left, top } = pane.place.value.insets;
   return (
     <div class={isActive ? "panename on" : "panename"} style={{ left: `${left + 8}px`, top: `${top + 8}px` }}>

@@ -1,4 +1,4 @@
-/** Pictures of a camera, for a video in the time of their stamps: simulated time, whatever the speed. */
+/** Pictures of a camera for a video, timed by their stamps: in simulated time at any speed. */
 
 import { PictureStream } from "../../displays/pictures/picture_stream";
 import type { Connection } from "../../protocol/connection";

@@ -5,7 +5,7 @@ import type { BufferTarget, CanvasSource, Mp4OutputFormat, Output } from "mediab
 import { sentence } from "../../panels/use";
 import { bitRate, RATE, type VideoContent, type VideoFile } from "./video_file";
 
-/** The most widely played first. */
+/** Codecs, the most widely supported first. */
 const CODECS = ["avc", "vp9", "av1"] as const;
 
 export class EncodedVideo implements VideoFile {
@@ -55,7 +55,7 @@ export class EncodedVideo implements VideoFile {
   add(time: number): void {
     this.adding = this.source.add(time, 1 / RATE).then(
       () => void (this.adding = null),
-      (error: unknown) => void (this.fault = sentence(error)), // and stays busy
+      (error: unknown) => void (this.fault = sentence(error)), // `adding` stays, so that no further picture comes
     );
   }
 

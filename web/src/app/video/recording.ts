@@ -23,12 +23,12 @@ export class Recording {
   private file: VideoFile | null = null;
   private last: number | null = null;
 
-  /** `onEnd`: the file can take no more. */
+  /** `onEnd` is called when the file can take no more pictures. */
   constructor(private readonly onEnd: () => void) {}
 
   /**
-   * Take a picture for a time [s], unless the encoder is busy; the first one gives the video its size. After a jump back
-   * in time the video goes on.
+   * Add a picture at a time [s], unless the encoder is busy; the first picture sets the video's size. After a jump back
+   * in time, the video continues.
    */
   add(
     image: CanvasImageSource,

@@ -1,4 +1,4 @@
-/** A video by the browser's MediaRecorder, where it has no WebCodecs: pictures at the time when they come. */
+/** A video by MediaRecorder, for browsers without WebCodecs: each picture has the time at which it is drawn. */
 
 import { bitRate, RATE, type VideoContent, type VideoFile } from "./video_file";
 
@@ -33,7 +33,7 @@ export class StreamedVideo implements VideoFile {
     recorder.start(1000);
   }
 
-  /** Throws a sentence where the browser records none. */
+  /** Start a video of a canvas; throws a sentence if the browser cannot record. */
   static open(canvas: HTMLCanvasElement): StreamedVideo {
     const type =
       typeof MediaRecorder === "undefined" ? undefined : TYPES.find((type) => MediaRecorder.isTypeSupported(type));

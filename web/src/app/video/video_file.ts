@@ -1,21 +1,21 @@
 /** A video file that is written picture by picture. */
 
-/** Pictures per second of the view, and at most of a file. */
+/** Pictures per second: of a video of the view, and the maximum of any video. */
 export const RATE = 30;
 const BITS_PER_PIXEL = 4; // per second
 const MIN_BITRATE = 1e6; // bits per second
 
-/** Takes its pictures from one canvas, whose size stays. */
+/** Video of one canvas, whose size must not change. */
 export interface VideoFile {
-  /** Difference of its timing from an MP4's, for the person who records; "": none. */
+  /** Remark for the person where the timing or format differs from an MP4 in simulated time; "": no difference. */
   readonly remark: string;
-  /** True while the encoder takes no picture. */
+  /** True while the encoder accepts no picture. */
   readonly isBusy: boolean;
   /** Bytes written so far. */
   readonly size: number;
-  /** Take the canvas' picture for a time since the beginning [s], later than the last one's. */
+  /** Add the canvas' picture at a time since the beginning [s], later than the last picture's. */
   add(time: number): void;
-  /** End; rejects with the encoder's fault. */
+  /** Finish the file; rejects with the encoder's error. */
   finish(): Promise<VideoContent>;
 }
 

@@ -1,4 +1,4 @@
-/** Pictures of the part of the view that no panel covers, for a video in the time of the clock. */
+/** Pictures of the part of the view that no panel covers, for a video in wall time. */
 
 import { freeArea } from "../../scene/free_area";
 import type { SceneView } from "../../scene/scene_view";
@@ -8,7 +8,7 @@ import { RATE } from "./video_file";
 /** Hand the pictures to a recording; returns a function that stops. */
 export function recordView(scene: SceneView, recording: Recording): () => void {
   const period = 1000 / RATE;
-  const draw = (): void => scene.invalidate(); // also while nothing moves
+  const draw = (): void => scene.invalidate(); // also draws while nothing moves
   let next = performance.now();
   let timer = setTimeout(draw, period);
   const removeStep = scene.addStep({
@@ -17,7 +17,7 @@ export function recordView(scene: SceneView, recording: Recording): () => void {
       if (now < next) return;
       next = Math.max(next + period, now);
       clearTimeout(timer);
-      timer = setTimeout(draw, period); // after this picture: a slow machine keeps time for the rest of the page
+      timer = setTimeout(draw, period); // not before: a slow machine needs time for the rest of the page
       const { element } = scene;
       const { width, height } = scene.size.peek();
       const area = freeArea(width, height, scene.freeArea.peek());

@@ -1,4 +1,4 @@
-/** Offers to follow the robot when it has left a view that nobody moves, or drives behind the controls over it. */
+/** Offers to follow the robot when it leaves a view that nobody moves, or drives behind the page's controls. */
 
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
@@ -12,9 +12,9 @@ import type { Shell } from "../shell";
 import { isFollowing, robotTarget } from "./following";
 import { robotBox, simulatedRobot, targetPose } from "./framing";
 
-/** Period of the look [s]. */
+/** Period of the check [s]. */
 const PERIOD = 0.25;
-/** What lies over the scene; menus and notices come and go. */
+/** Elements that cover the scene, and elements that cover it only for a moment. */
 const CONTROLS = ".panel, .scene-overlay :is(.float, .disc, .tile)";
 const PASSING = ".menu, .notice";
 
@@ -24,7 +24,7 @@ const TEXTS: Readonly<Record<Exclude<Place, "seen">, string>> = {
   left: "has left the view",
 };
 
-/** Where the robot is that is not seen, and its frame or `model::link`. */
+/** Why the robot is not visible, and its frame or `model::link`. */
 interface Unseen {
   readonly place: keyof typeof TEXTS;
   readonly target: string;
@@ -64,7 +64,7 @@ export function FollowOffer({ shell }: { readonly shell: Shell }): JSX.Element |
   );
 }
 
-/** Tell where the robot is if it is not seen, at first and while it stays so, and when it is seen again (null). */
+/** Call `tell` periodically: with the reason why the robot is not visible, or with null while it is visible. */
 function watchRobot(page: Page, tell: (unseen: Unseen | null, isNew: boolean) => void): () => void {
   const camera = new Matrix4();
   let since = 0;
@@ -84,7 +84,7 @@ function watchRobot(page: Page, tell: (unseen: Unseen | null, isNew: boolean) =>
   });
 }
 
-/** Where the robot's middle, or else its frame's origin, is. */
+/** Place of the robot's middle, or without an extent, of its frame's origin. */
 function placeOf(page: Page, target: string): Place {
   const { element, camera, paneSize } = page.scene;
   const middle =

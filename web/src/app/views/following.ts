@@ -44,7 +44,7 @@ function firstLink(page: Page, model: string): string | null {
   return link === undefined ? null : `${model}::${link}`;
 }
 
-/** The simulated robot, else the frame of a graph that is a robot's root by REP 105. */
+/** The simulated robot, else the frame of the graph that is a robot's root by its name in REP 105. */
 export function robotTarget(page: Page): string | null {
   const robot = simulatedRobot(page);
   if (robot !== undefined) return firstLink(page, robot.name);

@@ -54,7 +54,7 @@ const isWorldPart = isOneOf(...WORLD_PARTS);
 
 type Saved<Key extends string> = readonly (readonly [Key, boolean])[];
 
-/** Remember the shown parts: of all models everywhere, of single models in the world of this name. */
+/** Remember the shown parts: those of all models for every world, those of single models for the world of this name. */
 export function rememberShown({ world }: Pick<Page, "world">): void {
   const { shown } = world;
   shown.all.value = new Set(recall("shown", ["visuals"], isListOf(isPart)));

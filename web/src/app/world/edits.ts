@@ -9,7 +9,7 @@ import type { Shell } from "../shell";
 /**
  * Ask the server for an edit.
  *
- * `before` are the fields that take it back. Nothing can be undone that was refused.
+ * `before` are the fields that undo the edit. A refused edit is not recorded.
  */
 export function editWorld<N extends RequestName>(shell: Shell, ...edit: Edit<N>): Promise<void> {
   return shell.page.undo.ask(editAndRecord(shell, ...edit));

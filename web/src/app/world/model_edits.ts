@@ -35,7 +35,7 @@ export function copyModel(shell: Shell, model: string, at: Vector3 | null = null
   const offset = copyOffset(page.world.bounds(bodiesOf(outer)).applyMatrix4(worldFromFixed), at).toArray();
   const copy: Request = { request: "copy", fields: { model: outer.name, name, offset } };
   const remove: Request = { request: "delete", fields: { model: name } };
-  const restore: Request = { request: "restore", fields: { model: name } }; // the copy, with its later changes
+  const restore: Request = { request: "restore", fields: { model: name } }; // redo brings back the copy with its later changes
   void change(shell, `Copy of ${outer.name}`, copy, remove, restore).then((isDone) => {
     if (isDone) selectOnceAdded(page, { kind: "model", model: name });
   });
@@ -87,7 +87,7 @@ export function modelCommands(shell: Shell): readonly Command[] {
   ];
 }
 
-/** Make an edit that another kind of request undoes, and `again` redoes; true: done. */
+/** Make an edit that a request of another kind undoes, and `again` redoes; resolves with true if it was done. */
 function change(shell: Shell, ...edit: Change): Promise<boolean> {
   return shell.page.undo.ask(changeAndRecord(shell, ...edit));
 }

@@ -108,7 +108,7 @@ function useOpenRows(
   return { isOpen, setOpen: (key, open) => (toggled.value = new Map(toggled.value).set(key, open)) };
 }
 
-/** Names of the models that are open at first: the robot, or without one a model that moves alone. */
+/** Names of the models that are open at first: the robot, or without a robot, the only model that can move. */
 function openedAtFirst(manifest: Manifest | null): ReadonlySet<string> {
   const models = allModels(manifest?.models ?? []);
   const robot = manifest?.robot ?? null;

@@ -17,7 +17,7 @@ export interface Size {
   readonly height: number;
 }
 
-/** Size of the image that a calibration is for; the picture's own where it says none. */
+/** Size of the image that a calibration is for; a calibration without a size has the picture's. */
 export function calibratedSize({ width, height }: CameraInfo, picture: Size): Size {
   return { width: width || picture.width, height: height || picture.height };
 }

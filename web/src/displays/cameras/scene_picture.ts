@@ -71,7 +71,7 @@ function isLight(object: Object3D): boolean {
   return (object as Partial<Light>).isLight === true;
 }
 
-/** Rows from the top, and colors that are not multiplied by their alpha, as canvases have them. */
+/** Pixels for a canvas: rows from the top, and colors that are not premultiplied by alpha. */
 export function upright(bytes: Uint8Array, width: number, height: number): Uint8ClampedArray<ArrayBuffer> {
   const turned = new Uint8ClampedArray(bytes.length);
   for (let y = 0; y < height; y++)

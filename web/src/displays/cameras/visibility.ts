@@ -43,7 +43,7 @@ export class VisibilityProperty extends BoolProperty {
     });
   }
 
-  /** Save rows that the file had or that are off, so that new displays do not change the file. */
+  /** Save only rows that the file had or that are off, so that new displays do not change the file. */
   override save(): Yaml {
     const saved: Record<string, Yaml> = { ...this.stored };
     const rows = this.version.value === 0 ? [] : this.rows;

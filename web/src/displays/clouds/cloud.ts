@@ -35,7 +35,7 @@ export class Cloud {
     return this.channels.find((channel) => channel.name === name);
   }
 
-  /** Value of a channel at a point; as rviz, integers are read without their sign. */
+  /** Value of a channel at a point; integers are read as unsigned, as in rviz. */
   value({ offset, datatype }: Channel, index: number): number {
     return read(this.view, index * this.stride * 4 + offset, datatype, true);
   }
@@ -82,7 +82,7 @@ function isInWords(channel: Channel): boolean {
   return bytes >= 4 ? channel.offset % 4 === 0 : (channel.offset % 4) + bytes <= 4;
 }
 
-/** Copy points whose bytes no attribute can address into one word for each channel. */
+/** Copy points that no vertex attribute can address, with one word for each channel. */
 function repack(count: number, step: number, data: Uint8Array, channels: readonly Channel[], isLittle: boolean): Cloud {
   const from = new DataView(data.buffer, data.byteOffset, data.byteLength);
   const used = channels.slice(0, MAX_STRIDE / 4);
@@ -90,7 +90,7 @@ function repack(count: number, step: number, data: Uint8Array, channels: readonl
   const floats = new Float32Array(words.buffer);
   used.forEach(({ offset, datatype }, word) => {
     const target = datatype === FLOAT64 ? floats : words;
-    const wordType = datatype === FLOAT32 ? UINT32 : datatype; // a float32's bits stay as they are
+    const wordType = datatype === FLOAT32 ? UINT32 : datatype; // copies the bits of a float32 unchanged
     for (let index = 0; index < count; index++) {
       target[index * used.length + word] = read(from, index * step + offset, wordType, isLittle);
     }

@@ -39,12 +39,12 @@ export function choose(preferred: string, names: readonly ColorTransformer[]): C
   return match ?? (names.includes("RGB8") ? "RGB8" : "Intensity");
 }
 
-/** The channel that Intensity colors by; `intensities` stands in for `intensity`. */
+/** The channel that Intensity colors by; without `intensity`, a cloud's `intensities`. */
 export function intensityChannel(cloud: Cloud, name: string): Channel | undefined {
   return cloud.channel(name) ?? (name === "intensity" ? cloud.channel("intensities") : undefined);
 }
 
-/** Minimum and maximum of a channel within rviz's ±999999. */
+/** Minimum and maximum of a channel; they begin at rviz's ±999999. */
 export function channelBounds(cloud: Cloud, channel: Channel): Bounds {
   let min = 999999;
   let max = -999999;
@@ -82,7 +82,7 @@ export function range({ min, max }: Bounds, ifEqual: number): number {
   return max - min === 0 ? ifEqual : max - min;
 }
 
-/** Corners of rviz's rainbow, a sixth of the hues left out: 0 is magenta, 1 is red. */
+/** Corners of rviz's rainbow, which leaves a sixth of the hues out: 0 is magenta, 1 is red. */
 export const RAINBOW = [
   [1, 0, 1],
   [0, 0, 1],

@@ -19,7 +19,7 @@ import { ColorMode } from "./cloud_material";
 import type { CloudProperties } from "./cloud_properties";
 import { wordOf, type CloudObject } from "./point_cloud_object";
 
-/** rviz's replacement of a difference of 0. */
+/** Divisors that rviz uses where minimum and maximum are equal. */
 const INTENSITY_IF_EQUAL = 1e20;
 const AXIS_IF_EQUAL = 0.001;
 
@@ -69,7 +69,7 @@ function colorByChannel(object: CloudObject, cloud: Cloud, properties: CloudProp
   const { uniforms } = object.material;
   const channel = intensityChannel(cloud, properties.channel.value.value);
   if (channel === undefined) {
-    // rviz leaves such points white
+    // rviz draws points without the channel white
     uniforms.colorMode.value = ColorMode.flat;
     uniforms.minColor.value.setScalar(1);
     return;

@@ -1,10 +1,10 @@
-/** Shaders of rviz's styles of points. A color's numbers are those of the picture, as everywhere in the scene. */
+/** Shaders of rviz's styles of points. They write a color's sRGB numbers unchanged, as all shaders of the scene do. */
 
 import { DoubleSide, ShaderMaterial, Vector2, Vector3, Vector4 } from "three";
 
 import { RAINBOW } from "./cloud_colors";
 
-/** Styles of rviz's clouds; Tiles are those of GridCells. */
+/** Styles of rviz's clouds; Tiles is the style of GridCells. */
 export const STYLES = ["Points", "Squares", "Flat Squares", "Spheres", "Boxes"] as const;
 export type Style = (typeof STYLES)[number] | "Tiles";
 

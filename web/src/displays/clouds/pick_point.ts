@@ -8,7 +8,7 @@ import type { Cloud } from "./cloud";
 const PICK_ANGLE = 0.005;
 
 /**
- * The nearest point that a ray hits within `radius` [m] of its middle, else the one that it passes at the least angle;
+ * The nearest point whose middle is within `radius` [m] of a ray, else the point at the least angle to the ray;
  * null: none. `matrix` is the cloud's pose in the world.
  */
 export function nearestPoint(
@@ -33,7 +33,7 @@ export function nearestPoint(
     if (!(along > 0)) continue;
     const aside = Math.sqrt(Math.max(0, dx * dx + dy * dy + dz * dz - along * along));
     if (aside > reach(along)) continue;
-    const rank = aside <= radius ? along * 1e-6 : 1 + aside / along; // hit points come before passed ones
+    const rank = aside <= radius ? along * 1e-6 : 1 + aside / along; // points that the ray hits come first
     if (rank < minRank) [minRank, best] = [rank, index];
   }
   if (best < 0) return null;

@@ -22,8 +22,8 @@ import { CloudMaterial, type Style } from "./cloud_material";
 import { nearestPoint } from "./pick_point";
 
 /**
- * Clouds of more points are drawn as GL's points, a vertex each, which renderers without a GPU need: they take some 20 µs
- * for an instance. GL limits the size of its points and drops one whose middle is out of sight.
+ * Larger clouds are drawn as GL's points, a vertex each, for renderers without a GPU, which take some 20 µs
+ * for an instance. GL limits the size of its points, and drops a point whose middle is out of sight.
  */
 const MAX_INSTANCES = 1000;
 
@@ -42,7 +42,7 @@ const VIEWPORT = new Vector4();
 export interface CloudObject {
   readonly object: Object3D;
   readonly material: CloudMaterial;
-  /** Set the words of a point that its color is computed from; at most three. */
+  /** Set which words of a point its color is computed from; at most three. */
   setChannels(words: readonly number[]): void;
   dispose(): void;
 }

@@ -15,7 +15,7 @@ const DRAG_GLOW = 0.5;
 
 /** Events of a control, for its marker. */
 export interface ControlEvents {
-  /** True: the drag is the control's. */
+  /** True: the control handles the drag. */
   press(control: ControlView, event: TargetEvent): boolean;
   pull(control: ControlView, event: TargetEvent): void;
   release(control: ControlView, event: TargetEvent, isCancelled: boolean): void;

@@ -18,7 +18,7 @@ const INNER = 0.5;
 const OUTER = 0.65;
 const ORIGIN = { position: { x: 0, y: 0, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } } as const;
 
-/** The marker with handles on controls that have no shape; `alpha` is theirs. */
+/** The marker with handles on controls that have no shape; `alpha`: opacity of the handles. */
 export function withHandles(marker: InteractiveMarker, alpha: number): InteractiveMarker {
   const controls = marker.controls.map((control) => ({
     ...control,
@@ -80,7 +80,7 @@ function arrow(marker: InteractiveMarker, control: InteractiveMarkerControl, sid
   };
 }
 
-/** The words of a menu above the marker, for the pointer. */
+/** The title of a menu, as a text above the marker that can be clicked. */
 function button(marker: InteractiveMarker, control: InteractiveMarkerControl): Marker {
   const size = 0.25 * scaleOf(marker);
   const position = { x: -0.1 * size, y: 0, z: 1.2 * scaleOf(marker) - 0.1 * size };
@@ -94,7 +94,9 @@ function button(marker: InteractiveMarker, control: InteractiveMarkerControl): M
   };
 }
 
-/** A ring in the control's yz plane; one that turns is striped aslant, one that moves as well has teeth. */
+/**
+ * A ring in the control's yz plane: striped aslant if it rotates the marker, with teeth if it moves the marker as well.
+ */
 function ring(marker: InteractiveMarker, control: InteractiveMarkerControl, alpha: number): Marker {
   const size = scaleOf(marker);
   const at = (radius: number, step: number): Point => {

@@ -46,7 +46,7 @@ export class Drag {
     this.lastY = input.y;
   }
 
-  /** Follow the pointer: position and orientation are the marker's then. */
+  /** Follow the pointer; afterwards `position` and `orientation` are the marker's new pose. */
   move(input: DragInput, view: ViewAxes): void {
     const [dx, dy] = [input.x - this.lastX, input.y - this.lastY];
     this.lastX = input.x;

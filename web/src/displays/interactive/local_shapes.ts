@@ -1,4 +1,4 @@
-/** Shapes of an interactive marker in frames of their own. */
+/** Shapes of an interactive marker that name frames of their own. */
 
 import { Quaternion, Vector3 } from "three";
 

@@ -48,7 +48,7 @@ function addEntries(
   depth: number,
   choose: (entry: MenuEntry) => void,
 ): void {
-  if (depth > 8) return; // entries that are their own parents
+  if (depth > 8) return; // a message's entries may be their own parents
   for (const entry of entries.filter((other) => other.parent_id === parent)) {
     const hasChildren = entries.some((other) => other.parent_id === entry.id);
     const item = document.createElement("button");

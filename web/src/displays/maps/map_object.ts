@@ -81,7 +81,7 @@ export class MapObject extends Group {
     }
   }
 
-  /** Hand a region over to the GPU whose cells changed. */
+  /** Copy a region of changed cells to the GPU. */
   refresh(region: Region): void {
     for (const tile of this.tiles) {
       const part = overlap(tile.region, region);

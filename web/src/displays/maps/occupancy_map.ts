@@ -1,4 +1,4 @@
-/** Cells of a map with the updates that came since. */
+/** Cells of a map with all updates since its message. */
 
 import type { OccupancyGrid, OccupancyGridUpdate } from "../../protocol/generated/ros_messages";
 import { INVALID_FLOATS, isFinitePose } from "../../frames/valid";
@@ -35,7 +35,7 @@ export function readMap({ info, data }: OccupancyGrid): OccupancyMap | string {
   const bytes = new Uint8Array(data.buffer, data.byteOffset, data.length);
   if (count === data.length && count <= MAX_CELLS) return { width, height, resolution, cells: bytes, fault: null };
   const fault = `Data size doesn't match width*height: width = ${width}, height = ${height}, data size = ${data.length}`;
-  if (count > Math.min(MAX_CELLS, 4 * data.length + 4096)) return fault; // too little of it to be worth its memory
+  if (count > Math.min(MAX_CELLS, 4 * data.length + 4096)) return fault; // too few cells for that much memory
   const cells = new Uint8Array(count).fill(UNKNOWN);
   cells.set(bytes.subarray(0, count));
   return { width, height, resolution, cells, fault };
@@ -53,7 +53,7 @@ export function writeUpdate(map: OccupancyMap, { x, y, width, height, data }: Oc
   return { x, y, width, height };
 }
 
-/** Bytes of a region, by rows; the map's own where the region is all of it. */
+/** Bytes of a region, by rows; for a region that is the whole map, the map's own array. */
 export function cut(map: OccupancyMap, { x, y, width, height }: Region): Uint8Array<ArrayBuffer> {
   if (width === map.width && height === map.height && map.cells.buffer instanceof ArrayBuffer)
     return map.cells as Uint8Array<ArrayBuffer>;

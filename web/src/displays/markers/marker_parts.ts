@@ -9,7 +9,7 @@ export type PartKind = "box" | "sphere" | "cylinder" | "shaft" | "head" | "list 
 /** The matrix is in the marker's own frame and is used again for the next part. */
 export type Emit = (kind: PartKind, matrix: Matrix4, color: ColorRGBA) => void;
 
-/** Shares of an arrow's length, and how much broader than its shaft the head is. */
+/** Ratios of an arrow: shaft and head to its length, and the head's diameter to the shaft's. */
 const SHAFT_LENGTH = 0.77;
 const HEAD_LENGTH = 0.23;
 const HEAD_WIDTH = 2;

@@ -149,7 +149,7 @@ function text(bytes: ArrayBuffer): string {
   return new TextDecoder().decode(bytes);
 }
 
-/** A name without escapes; one that has none may have a `%`. */
+/** A name with its escapes decoded; a name with a stray `%` is left as it is. */
 function decoded(name: string): string {
   try {
     return decodeURIComponent(name);

@@ -88,7 +88,7 @@ function isRead(map: Texture | null | undefined): map is Texture {
 function shapeMaterial(material: ColoredMaterial): ShapeMaterial {
   const map = isRead(material.map) ? material.map : null;
   const shape = new ShapeMaterial({ side: DoubleSide, map });
-  if (map !== null) map.colorSpace = NoColorSpace; // shading is done in sRGB
+  if (map !== null) map.colorSpace = NoColorSpace; // the shader computes in sRGB
   const { r, g, b } = material.color?.getRGB({ r: 1, g: 1, b: 1 }, SRGBColorSpace) ?? { r: 1, g: 1, b: 1 };
   shape.setRgba(r, g, b, material.opacity);
   return shape;

@@ -26,7 +26,7 @@ export const decodePicture: DecodePicture = (message, normalization, history) =>
 function unpack(message: Image, normalization: Normalization, history: RangeHistory): Promise<Decoded> {
   const id = count++;
   const { width, height, encoding, is_bigendian, step } = message;
-  const data = message.data.slice(); // others show the same message
+  const data = message.data.slice(); // a copy: the message's other readers need its bytes
   const request: PictureRequest = {
     id,
     image: { width, height, encoding, is_bigendian, step, data },

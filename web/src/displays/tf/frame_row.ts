@@ -70,7 +70,7 @@ export function fadeOf(age: number, timeout: number): Fade {
   return { grey: 1, alpha: Math.max(0, (timeout - age) / third) };
 }
 
-/** What is this near in front of a frame, per size of its axes, is its own robot. */
+/** Distance in front of a frame, per size of its axes, within which a surface counts as the frame's own robot. */
 const REACH = 1.5;
 
 /** Name of a frame without its robot's prefix. */

@@ -4,7 +4,7 @@ import type { FrameInfo } from "../../frames/frame_tree";
 import { age } from "../messages/format";
 import type { DrawnArrow, DrawnBox } from "./graph_drawing";
 
-const OLD = 10; // s: tf forgets what is older
+const OLD = 10; // s: tf drops older transforms
 
 /** Boxes and arrows from parents to children; `now` in ROS time [ns]. */
 export function frameBoxes(

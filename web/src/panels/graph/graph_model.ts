@@ -21,7 +21,7 @@ interface Edge {
 export interface Drawing {
   readonly vertices: readonly Vertex[];
   readonly edges: readonly Edge[];
-  /** Number of nodes and topics of this view that `hideDebug` leaves out. */
+  /** Number of this view's nodes and topics that `hideDebug` hides. */
   readonly hidden: number;
 }
 
@@ -33,7 +33,7 @@ export interface GraphFilter {
   readonly text: string;
 }
 
-/** Parts of the names of rqt_graph's debug nodes and topics (QUIET_NAMES), and of pages, which are our rqt. */
+/** Parts of the names of rqt_graph's debug nodes and topics (QUIET_NAMES), and of pages, which take rqt's place. */
 const DEBUG_NAMES = [
   "/diag_agg",
   "/runtime_logger",

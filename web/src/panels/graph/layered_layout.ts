@@ -16,7 +16,7 @@ export interface Arrow {
 export interface Placed {
   /** Centre of each box [px]. */
   readonly boxes: ReadonlyMap<string, readonly [number, number]>;
-  /** Path of each arrow, in their order. */
+  /** Path of each arrow, in the order of the arrows. */
   readonly paths: readonly string[];
   readonly width: number;
   readonly height: number;
@@ -62,7 +62,7 @@ function arranged(boxes: readonly Box[], arrows: readonly Arrow[], direction: "L
   graph.setGraph({ rankdir: direction, nodesep: BETWEEN, ranksep: 44, edgesep: 8, marginx: MARGIN, marginy: MARGIN });
   graph.setDefaultEdgeLabel(() => ({}));
   const names = new Set([...boxes.map(({ id }) => id), ...arrows.flatMap(({ from, to }) => [from, to])]);
-  const ids = new Map([...names].map((name, index) => [name, String(index)])); // dagre's are keys of objects: no __proto__
+  const ids = new Map([...names].map((name, index) => [name, String(index)])); // dagre's ids are object keys, so a name like __proto__ is unsafe
   const node = (id: string): string => ids.get(id) ?? "";
   for (const { id, width, height } of boxes) graph.setNode(node(id), { width, height });
   arrows.forEach(({ from, to }, index) => graph.setEdge(node(from), node(to), {}, String(index)));

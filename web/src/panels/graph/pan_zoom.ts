@@ -10,7 +10,7 @@ export interface ViewBox {
 }
 
 const STEP = 1.2;
-const LARGEST = 4; // px of the screen per px of the drawing
+const LARGEST = 4; // largest scale: px of the screen per px of the drawing
 const LARGEST_FIT = 1;
 
 export class PanZoom {

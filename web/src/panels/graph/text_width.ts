@@ -1,6 +1,6 @@
 /** Width of text in the page's font [px]. */
 
-const FALLBACK = 0.56; // of the size, per letter: where there is no canvas
+const FALLBACK = 0.56; // width of a letter per font size, where there is no canvas
 
 let context: CanvasRenderingContext2D | null | undefined;
 

@@ -1,4 +1,4 @@
-/** A browser's gamepad in the order in which Linux, and so `joy`, has the usual one. */
+/** Reorders a browser's gamepad as Linux, and so `joy`, orders the axes and buttons of common gamepads. */
 
 /** Axes −1 … 1, left and forward positive; buttons 0 and 1. */
 export interface JoyState {
@@ -30,7 +30,7 @@ export const BUTTON_NAMES = [
   "Right stick",
 ] as const;
 
-/** A released pad: triggers rest at 1. */
+/** A gamepad that nobody touches: triggers rest at 1. */
 export const AT_REST: JoyState = { axes: [0, 0, 1, 0, 0, 1, 0, 0], buttons: BUTTON_NAMES.map(() => 0) };
 
 /** Buttons of the Gamepad API's standard mapping, in the order of `BUTTON_NAMES`. */

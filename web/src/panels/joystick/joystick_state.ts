@@ -8,14 +8,17 @@ import { sentence } from "../use";
 import { AT_REST, joyFromGamepad, type JoyState } from "./gamepad_axes";
 
 const PERIOD = 50; // ms, joy's 20 Hz
-/** Period of what does not change [ms]: a joystick that is not renewed for a second returns to rest. */
+/**
+ * Period at which an unchanged state is sent again [ms]: after a second without a message, the server's joystick
+ * returns to rest.
+ */
 const RENEWAL = 250;
 
 const REST = JSON.stringify([AT_REST.axes, AT_REST.buttons]);
 
 export class JoystickState {
   readonly joy = signal<JoyState>(AT_REST);
-  /** Name of the gamepad that moves it; null: the page does. */
+  /** Name of the gamepad in use; null: the page's sticks are used. */
   readonly gamepad = signal<string | null>(null);
   readonly fault = signal("");
   private sent = REST;

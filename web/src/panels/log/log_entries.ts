@@ -63,7 +63,7 @@ function textMatcher(query: string): (text: string) => boolean {
       const compiled = new RegExp(expression, "i");
       return (text) => compiled.test(text);
     } catch {
-      return () => false; // half typed: nothing matches yet
+      return () => false; // an unfinished expression matches nothing
     }
   }
   const part = query.trim().toLowerCase();

@@ -16,7 +16,7 @@ export interface MessageTreeProps {
 
 const OPEN_DEPTH = 2;
 
-/** Tree that opens its first levels; rows that a person opened or closed stay so while messages come. */
+/** Tree that opens its first levels; rows that a person opened or closed stay that way while messages come. */
 export function MessageTree({ label, type, message }: MessageTreeProps): JSX.Element {
   const [toggled, setToggled] = useState<ReadonlyMap<string, boolean>>(new Map());
   const [selected, setSelected] = useState<string | null>(null);

@@ -5,7 +5,7 @@ import { parse } from "yaml";
 import type { RosMessage, RosTime, RosValue } from "../../protocol/ros_types";
 import type { Field, MessageType } from "./definition";
 
-/** A value that does not fit its field: a sentence for the person who typed it. */
+/** A value does not fit its field; the message is a sentence for the person who typed it. */
 export class ValueError extends Error {}
 
 const INTEGERS: Readonly<Record<string, readonly [bigint, bigint]>> = {
@@ -41,7 +41,7 @@ export function emptyValues(type: MessageType): number {
     if (!isComplex) return 1;
     const known = counts.get(name);
     if (known !== undefined) return known;
-    counts.set(name, Infinity); // while it is counted
+    counts.set(name, Infinity); // while counting, so that recursion ends
     const count = countOf(within.within(name));
     counts.set(name, count);
     return count;

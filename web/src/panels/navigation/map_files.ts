@@ -3,7 +3,7 @@
 import { readMap } from "../../displays/maps/occupancy_map";
 import type { OccupancyGrid, Quaternion } from "../../protocol/generated/ros_messages";
 
-/** Limits of map_saver: probabilities from the first on are free, those from the second on occupied [%]. */
+/** Probability limits of map_saver [%]: cells up to the first are free, cells from the second on are occupied. */
 const FREE_MAX = 25;
 const OCCUPIED_MIN = 65;
 const FREE = 254;
@@ -15,14 +15,14 @@ export interface MapFiles {
   readonly yaml: Blob;
 }
 
-/** Picture and description of a map, for files NAME.pgm and NAME.yaml; a sentence if it is none. */
+/** Picture and description of a map, for files NAME.pgm and NAME.yaml; a sentence if the message is no valid map. */
 export function mapFiles(name: string, grid: OccupancyGrid): MapFiles | string {
   const map = readMap(grid);
   if (typeof map === "string") return map;
   const { width, height, resolution, cells } = map;
   const pixels = new Uint8Array(width * height);
   for (let row = 0; row < height; row++) {
-    const from = (height - 1 - row) * width; // a picture begins at its top
+    const from = (height - 1 - row) * width; // a picture's first row is its top
     for (let column = 0; column < width; column++) pixels[row * width + column] = shade(cells[from + column] ?? 255);
   }
   const head = `P5\n# made by Trundle, ${resolution.toFixed(3)} m/pixel\n${width} ${height}\n255\n`;

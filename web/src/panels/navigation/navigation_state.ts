@@ -1,4 +1,4 @@
-/** The action move_base as the page's person uses it: the queue's goals are sent one after the other. */
+/** Client of the action move_base: sends the goals of the queue one after the other. */
 
 import { computed, effect, signal, untracked } from "@preact/signals";
 
@@ -23,7 +23,9 @@ const ACTION = "move_base_msgs/MoveBaseActionFeedback";
 const FEEDBACK = "/feedback";
 const POSE = "geometry_msgs/PoseWithCovarianceStamped";
 const MAP = "nav_msgs/OccupancyGrid";
-/** Wall time after which a goal that no status names is lost [ms]: actions name theirs five times a second. */
+/**
+ * Wall time after which a goal that no status lists counts as lost [ms]: actions list their goals five times a second.
+ */
 const UNKNOWN_AFTER = 5000;
 const MAP_AFTER = 5000;
 
@@ -49,7 +51,7 @@ export class NavigationState {
     const [first = null] = this.servers.value;
     return this.servers.value.find((name) => name === this.chosen.value) ?? first;
   });
-  /** State of the newest goal, whoever sent it. */
+  /** State of the newest goal of any sender. */
   readonly status = signal<GoalStatus | null>(null);
   readonly recovery = signal<RecoveryStatus | null>(null);
   /** Pose of the robot by localization. */
@@ -85,14 +87,14 @@ export class NavigationState {
     return this.page.goals;
   }
 
-  /** Send the first goal that waits, and the next ones after it. */
+  /** Send the first waiting goal, and each next goal once the previous one has ended. */
   start(): void {
     const next = this.queue.goals.peek().find(({ state }) => state === "waiting");
     this.isRunning.value = next !== undefined;
     if (next !== undefined) this.send(next);
   }
 
-  /** Cancel the goal that the robot drives to, whoever sent it; the queue's others keep waiting. */
+  /** Cancel the goal that the robot drives to, of any sender; the queue's other goals keep waiting. */
   stop(): void {
     const server = this.server.peek();
     this.isRunning.value = false;
@@ -114,7 +116,7 @@ export class NavigationState {
     );
   }
 
-  /** Topic of the map, the costmaps' apart; null: there is none. */
+  /** Topic of the map, which is not a costmap's; null: there is none. */
   get mapTopic(): string | null {
     const names = this.topicsOf(MAP).filter((name) => !name.includes("costmap"));
     return names.find((name) => name === "/map") ?? names[0] ?? null;
@@ -130,7 +132,7 @@ export class NavigationState {
     }, MAP_AFTER);
     const subscription = this.page.connection.subscribe<OccupancyGrid>(topic, ({ message }) => {
       clearTimeout(timer);
-      queueMicrotask(() => subscription.close()); // also if it is called before it is defined
+      queueMicrotask(() => subscription.close()); // later: the first message may come before it is defined
       const name = topic.slice(topic.lastIndexOf("/") + 1);
       const files = mapFiles(name, message);
       this.fault.value = typeof files === "string" ? `${topic}: ${files}` : "";
@@ -148,7 +150,7 @@ export class NavigationState {
       .sort();
   }
 
-  /** The pose of localization that is nearest to the action's namespace. */
+  /** Topic of the localization pose whose namespace is nearest to the action's. */
   private poseTopic(): string | null {
     const names = this.topicsOf(POSE).filter((name) => name.endsWith("amcl_pose") || name.endsWith("poseupdate"));
     const server = this.server.value ?? "";
@@ -181,7 +183,7 @@ export class NavigationState {
     if (server === null) return;
     const { connection, session } = this.page;
     const stamp = timeOf(connection.now());
-    const random = Math.random().toString(36).slice(2); // so that two pages' goals differ
+    const random = Math.random().toString(36).slice(2); // unique: two pages may send goals
     const id = `${session.node ?? "page"}-${goal.number}-${random}`;
     const header = { seq: 0, stamp, frame_id: goal.frame };
     this.current = { number: goal.number, id, namedAt: performance.now() };
@@ -194,7 +196,7 @@ export class NavigationState {
   }
 
   private onStatus({ status_list: all }: GoalStatusArray): void {
-    const last = this.status.peek(); // a node forgets its goals after some seconds
+    const last = this.status.peek(); // kept, since a node forgets its goals after some seconds
     this.status.value = all.reduce((newest, one) => (isNewer(one, newest) ? one : newest), last);
     const { current } = this;
     if (current === null) return;

@@ -18,7 +18,7 @@ interface Branch {
   value: ParameterValue | undefined;
 }
 
-/** Rows of the namespaces that are open; while a text filters, all that match are. */
+/** Rows of open namespaces; with a filter text, all namespaces with a match are open. */
 export function parameterRows(
   parameters: ReadonlyMap<string, ParameterValue>,
   closed: ReadonlySet<string>,
@@ -49,7 +49,7 @@ export function parameterRows(
   return rows;
 }
 
-/** A value on one line; a whole float keeps its point. */
+/** A value on one line; a whole float keeps its decimal point. */
 export function parameterText(value: ParameterValue, isFloat: boolean): string {
   if (typeof value === "string") return value;
   if (typeof value === "number" && isFloat && Number.isInteger(value) && Math.abs(value) < 1e15)
@@ -62,7 +62,7 @@ function quoted(value: ParameterValue, isFloat: boolean): string {
   return typeof value === "string" ? JSON.stringify(value) : parameterText(value, isFloat);
 }
 
-/** A parameter's new value, of the type it has; else a sentence. */
+/** A parameter's new value, of the old value's type; a sentence if the text does not fit the type. */
 export function parameterFromText(
   old: ParameterValue,
   text: string,

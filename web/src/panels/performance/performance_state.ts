@@ -29,7 +29,7 @@ export interface Row extends ProfilePart {
   readonly share: number;
 }
 
-/** Profiles of which the real-time factor is drawn. */
+/** Profiles whose real-time factors are drawn. */
 const MAX_FACTORS = 120;
 
 class PerformanceState {
@@ -53,7 +53,7 @@ class PerformanceState {
 
 export const performanceState = perPage((page) => new PerformanceState(page));
 
-/** The most expensive parts first; waiting, which costs nothing, last. */
+/** Most expensive parts first; waiting last, since it costs nothing. */
 export function rowsOf({ parts, wall_s, simulated_s }: Profile): readonly Row[] {
   if (wall_s <= 0 || simulated_s <= 0) return [];
   const rows = parts.map((part) => ({
@@ -66,7 +66,7 @@ export function rowsOf({ parts, wall_s, simulated_s }: Profile): readonly Row[] 
   );
 }
 
-/** Rows as they lie in the bar: group by group. */
+/** Rows in the order of the bar: group by group. */
 export function barOf(rows: readonly Row[]): readonly Row[] {
   return GROUPS.flatMap((group) => rows.filter((row) => row.group === group));
 }

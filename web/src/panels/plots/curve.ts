@@ -64,7 +64,7 @@ export class Curve {
     });
   }
 
-  /** Given name, last two steps, or a joint without its model, for the legend. */
+  /** Name in the legend: the given one, else the path's last two steps, or a joint without its model. */
   get name(): string {
     if (this.givenName !== undefined) return this.givenName;
     const { steps } = this.split();
@@ -73,7 +73,7 @@ export class Curve {
       : stepsText(steps.slice(-2)).replace(/^\./, "");
   }
 
-  /** Part of the path that the name omits. */
+  /** Part of the path that the legend's name omits. */
   get caption(): string {
     if (this.givenName !== undefined) return this.path;
     const { topic, steps } = this.split();

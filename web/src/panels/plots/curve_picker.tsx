@@ -75,7 +75,7 @@ export function CurvePicker({ page, state }: { readonly page: Page; readonly sta
   );
 }
 
-/** Paths of all numbers whose place is known from definitions alone. */
+/** Paths of all numbers that definitions alone tell, without a message. */
 function usePaths(page: Page): readonly string[] {
   const [paths, setPaths] = useState<readonly string[]>([]);
   const { topics } = page.connection;
@@ -176,7 +176,7 @@ function topicRows(
   });
 }
 
-/** The same steps, with an element's name instead of its index where the message names its elements. */
+/** A path's steps, with an element's name in place of its index where the message names its elements. */
 function named(message: RosMessage, steps: readonly Step[]): readonly Step[] {
   return steps.map((step, at) => {
     if (typeof step === "string" || !("index" in step)) return step;

@@ -1,4 +1,4 @@
-/** Curves of a plot with their value at the cursor, at the end of a paused plot, or the newest. */
+/** Curves of a plot with their values: at the cursor, at the end of a paused plot, or the newest. */
 
 import type { JSX } from "preact";
 
@@ -93,7 +93,7 @@ function largest({ between }: Line, state: PlotsState): number {
   return between(...state.range())[1].reduce((max, y) => Math.max(max, Math.abs(y)), 0);
 }
 
-/** Value with decimals by the largest one, so that it keeps its width; 0 if negligible. */
+/** Value whose number of decimals depends on the largest value, so that it keeps its width; 0 if negligible. */
 export function legendText(value: number, largest: number): string {
   const size = Math.abs(value) < UNSEEN * largest ? 0 : Math.abs(value);
   if (size !== 0 && size < 0.001) return significant(value, 2);

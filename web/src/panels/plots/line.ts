@@ -1,4 +1,4 @@
-/** Lines of a plot: its curves, and beside or instead of them what a recording has. */
+/** Lines of a plot: its curves, and beside them or in their place the recording's curves or the differences. */
 
 import type { Reference } from "../../scene/simulated_world";
 import type { Curve } from "./curve";
@@ -17,7 +17,7 @@ export interface Line {
   /** Name of its column in files. */
   readonly name: string;
   readonly isReference: boolean;
-  /** Time after which it has no value [s]. */
+  /** Time after which the line has no value [s]. */
   readonly end: number;
   /** Points of a range of time [s]. */
   readonly between: (from: number, to: number) => Points;

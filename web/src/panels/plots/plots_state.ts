@@ -15,14 +15,14 @@ import { svgText } from "./svg";
 
 export const WINDOWS = [5, 10, 30, 60, 120] as const; // s
 
-/** Largest difference between the clock and the points [s]. */
+/** Largest delay of the newest points behind the clock [s]. */
 const LAG = 0.005;
 
 export class PlotsState {
   readonly plots = signal<readonly Plot[]>([{ id: 0, curves: [] }]);
   /** Seconds that are shown. */
   readonly window = signal<number>(30);
-  /** A time range that a person chose; null: the newest. */
+  /** A time range that a person chose; null: the last seconds. */
   readonly zoom = signal<Range | null>(null);
   readonly isPaused = signal(false);
   /** Time under the cursor [s]. */
@@ -52,13 +52,13 @@ export class PlotsState {
     return linesOf(curves, this.mode.value, this.reference.value);
   }
 
-  /** Draw the robot's commanded and measured speed once they are known, unless a person or a launch was first. */
+  /** Add the robot's commanded and measured speed once their topics are known, unless the plots already have curves. */
   private drawSpeed(): void {
     const stop = effect(() => {
       const isEmpty = this.plots.value.every(({ curves }) => curves.length === 0);
       const speed = isEmpty ? speedOf(this.page) : null;
       if (isEmpty && speed === null) return;
-      queueMicrotask(() => stop()); // also if it is known already
+      queueMicrotask(() => stop()); // later: the first call comes before `stop` is defined
       untracked(() => speed?.curves.forEach(([path, name]) => this.add(path, name)));
     });
   }
@@ -67,7 +67,9 @@ export class PlotsState {
     return this.plots.value.flatMap((plot) => plot.curves);
   }
 
-  /** Add curves to the last plot; `/pose/x:y` is two of them, as for rqt_plot. Without a name, it is of the path. */
+  /**
+   * Add curves to the last plot; `/pose/x:y` is two curves, as for rqt_plot. Without a name, the legend shows the path.
+   */
   add(text: string, name?: string): void {
     const plot = this.plots.peek().at(-1)?.id;
     const [first = "", ...others] = text
@@ -109,7 +111,7 @@ export class PlotsState {
     );
   }
 
-  /** Time of the simulation while it is before the newest point, as while scrubbing [s]; null: it is the newest. */
+  /** Time of the simulation while a person scrubs before the newest point [s]; null: the newest point is shown. */
   shownTime(): number | null {
     const time = (this.page.world.state.value?.time_ns ?? Infinity) / 1e9;
     const newest = this.newest();

@@ -25,7 +25,7 @@ export function referenceBetween(series: ReferenceSeries, start: number, from: n
   return [times.subarray(first, last).map((time) => time + start), values.subarray(first, last)];
 }
 
-/** Differences of a run's points from the recording, at the points' times that the recording has. */
+/** Differences of a run's points from the recording, at those of the points' times that the recording covers. */
 export function differenceOf([xs, ys]: Points, { times, values, isAngle }: ReferenceSeries, start: number): Points {
   const last = times.length - 1;
   const first = xs.findIndex((x) => x >= start);

@@ -22,7 +22,9 @@ export class RingBuffer {
     return this.end - this.start;
   }
 
-  /** Add a point. One a little older than the last is dropped; a much older one means a reset and clears the buffer. */
+  /**
+   * Add a point. A point a little older than the last is dropped; a much older one means a reset and clears the buffer.
+   */
   push(x: number, y: number): void {
     const last = this.lastX ?? x;
     if (x < last - RESET) this.clear();

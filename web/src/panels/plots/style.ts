@@ -1,4 +1,4 @@
-/** Colors and dashes of curves: the second, fourth … are dashed, so that color is never the only sign. */
+/** Colors and dashes of curves: every second curve is dashed, so that curves differ not only by color. */
 
 export const COLORS = ["--plot-1", "--plot-2", "--plot-3", "--plot-4"] as const;
 

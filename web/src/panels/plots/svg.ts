@@ -64,7 +64,7 @@ function plotText(lines: readonly Line[], range: Range): string {
   return parts.join("\n");
 }
 
-/** Points of a line; a held value has the next one's time, too, and the last one the range's end. */
+/** Points of a line; a held value has a second point at the next value's time, the last one at the range's end. */
 function drawnPoints({ curve, between }: Line, [from, to]: Range): readonly (readonly [number, number])[] {
   const [xs, ys] = between(from, to);
   return Array.from(xs, (time, at) => {

@@ -2,14 +2,16 @@
 
 export type Literal = string | number | boolean | null | readonly Literal[] | { readonly [key: string]: Literal };
 
-/** Read a literal of texts, numbers, True, False, None, lists, tuples and dicts; undefined where it is none. */
+/**
+ * Read a literal of texts, numbers, True, False, None, lists, tuples and dicts; undefined: the text is no such literal.
+ */
 export function parseLiteral(text: string): Literal | undefined {
   try {
     const reader = new Reader(text);
     const value = reader.value();
     return reader.isAtEnd() ? value : undefined;
   } catch (error) {
-    if (error instanceof SyntaxError || error instanceof RangeError) return undefined; // or it nests without end
+    if (error instanceof SyntaxError || error instanceof RangeError) return undefined; // RangeError: nested too deeply
     throw error;
   }
 }

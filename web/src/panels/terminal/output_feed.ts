@@ -4,7 +4,7 @@ const MAX_WAITING = 1024 * 1024;
 
 /** Screen that draws the output. */
 export interface Screen {
-  /** Draw bytes; `done` is called when that is over. */
+  /** Draw bytes; calls `done` when they are drawn. */
   write(data: Uint8Array, done: () => void): void;
   /** Empty the screen and its scrollback. */
   reset(): void;
@@ -20,7 +20,7 @@ export class OutputFeed {
 
   constructor(private readonly screen: Screen) {}
 
-  /** Let the next output replace the screen: it is another server's. */
+  /** Let the next output replace the screen, since it comes from another server. */
   restart(): void {
     this.next = null;
   }

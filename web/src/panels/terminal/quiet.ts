@@ -3,8 +3,8 @@
 import type { IFunctionIdentifier, Terminal } from "@xterm/xterm";
 
 /**
- * Questions that a terminal answers as if somebody typed: each page would answer, also when the output is shown again,
- * and a text that a program merely prints could type into it. And reports of the window, xterm's `CSI t`.
+ * Queries that a terminal answers as if somebody typed: each page would answer, also when the output is shown again,
+ * and a text that a program merely prints could type into the program. `CSI t`, xterm's window reports, is one of them.
  */
 const QUESTIONS: readonly IFunctionIdentifier[] = [
   { final: "c" },

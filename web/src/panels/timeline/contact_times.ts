@@ -3,7 +3,7 @@
 import { contactCount, HEADER, SIZE } from "../../scene/world/contact_rows";
 import { Intervals } from "./intervals";
 
-/** Largest number of pairs; the pair that touched longest ago is dropped first, of equals the one that began last. */
+/** Largest number of pairs; the pair that touched longest ago is dropped first, and among equals the newest pair. */
 const MAX_PAIRS = 40;
 
 export interface PairStretches {

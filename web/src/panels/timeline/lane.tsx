@@ -71,7 +71,7 @@ interface LaneGroupProps extends ShareProps {
   readonly isOpen?: boolean;
 }
 
-/** Lanes of one kind below one that has the intervals of all; several are folded at first. */
+/** Lanes of one kind below a lane with the intervals of all; if there are several, they are folded at first. */
 export function LaneGroup({ name, lanes, folds, isOpen = false, span, share }: LaneGroupProps): JSX.Element {
   const rows = lanes.map(({ name: row, title, bands }) => (
     <Lane key={row} name={row} title={title}>

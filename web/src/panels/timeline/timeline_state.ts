@@ -27,7 +27,7 @@ const SHORTEST_PAST = 0.05; // s
 export class TimelineState {
   readonly marks = signal<readonly Mark[]>([]);
   readonly fault = signal("");
-  /** Time at which the pointer holds the head [s]; null: released. */
+  /** Time to which the pointer drags the head [s]; null: no drag. */
   readonly scrub = signal<number | null>(null);
   readonly topics: TopicTimes;
   /** Intervals in which this page drove the robot, and in which the simulation was recorded. */
@@ -83,7 +83,7 @@ export class TimelineState {
     return this.scrub.value ?? (this.page.world.state.value?.time_ns ?? 0) / NS;
   }
 
-  /** Time by which a paused simulation is before its newest moment [s]; null: it shows that moment, or plays. */
+  /** Time by which a paused simulation is behind its newest state [s]; null: it shows its newest state, or plays. */
   past(): number | null {
     const state = this.page.world.state.value;
     if (state?.timeline === undefined || !state.paused || this.page.session.kind !== "simulation") return null;

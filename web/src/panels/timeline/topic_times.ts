@@ -18,12 +18,12 @@ export interface TopicStretches {
 /** Largest number of buckets in the visible span. */
 const BUCKETS = 600;
 const SHORTEST = 0.05; // s
-/** Largest time between two calls of `look`; longer ones are jumps [s]. */
+/** Largest time between two calls of `look` [s]; a larger step is a jump in time. */
 const LATE = 1;
 const NS = 1e9;
 
 export class TopicTimes {
-  /** Stretches of a bag; null: no bag is played, or its index is not read yet. */
+  /** Intervals of a bag's topics; null: no bag is played, or its index is not read yet. */
   private readonly recorded = signal<readonly TopicStretches[] | null>(null);
   /** Buckets in which messages of a topic came. */
   private readonly received = new Map<string, Set<number>>();
@@ -37,7 +37,7 @@ export class TopicTimes {
     });
   }
 
-  /** Stretches of all topics, sorted by topic. */
+  /** Intervals of all topics, sorted by topic. */
   get all(): readonly TopicStretches[] {
     return (
       this.recorded.value ??
@@ -46,9 +46,9 @@ export class TopicTimes {
   }
 
   /**
-   * Note which of the topics that something on the page shows had messages since the last look.
+   * Note which of the page's subscribed topics had messages since the last look.
    *
-   * Buckets may be shorter than the time between two looks: all of those between have what came.
+   * Buckets may be shorter than the time between two looks: messages then count for all buckets since the last look.
    */
   look(span: Span, now: number): void {
     const doublings = Math.ceil(Math.log2((span.end - span.start) / (BUCKETS * SHORTEST)));
@@ -82,7 +82,7 @@ export class TopicTimes {
     }
   }
 
-  /** Stretches of a topic [s], joined where they touch. */
+  /** Intervals of a topic [s]; adjacent ones are joined. */
   private bands(topic: string): readonly (readonly [number, number])[] {
     const bands: [number, number][] = [];
     for (const bucket of [...(this.received.get(topic) ?? [])].sort((one, other) => one - other)) {
@@ -95,7 +95,7 @@ export class TopicTimes {
   }
 }
 
-/** Stretches of a bag by topic, in seconds. */
+/** Intervals of a bag by topic [s]. */
 export function stretchesOf({ start_ns, bucket_ns, topics }: Lanes): readonly TopicStretches[] {
   const time = (bucket: number): number => (start_ns + bucket * bucket_ns) / NS;
   const names = Object.keys(topics).sort();

@@ -76,7 +76,7 @@ export function matchingTopics(topics: ReadonlyMap<string, TopicInfo>, text: str
     .sort((one, other) => (one.name < other.name ? -1 : 1));
 }
 
-/** OK while messages come, a warning when they stopped, a ring before the first. */
+/** Status of a topic: OK while messages come, a warning after they stopped, a ring before the first. */
 export function topicLevel({ rate, lastAt }: TopicStatistics, now: number): StatusLevel {
   if (lastAt === null) return "none";
   const seconds = (now - lastAt) / 1000;

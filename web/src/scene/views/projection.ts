@@ -1,4 +1,4 @@
-/** Perspective or not; rviz has no such property, so that its files name it only where it differs. */
+/** Perspective or orthographic; rviz has no such property, so files have it only where it differs from rviz's view. */
 
 import { EnumProperty, type Yaml } from "../../rviz/properties";
 

@@ -1,4 +1,4 @@
-/** View through a simulated camera: its pose on its link and its field of view; only the link moves it. */
+/** View through a simulated camera, by its pose on its link and its field of view; a person cannot move the view. */
 
 import { PerspectiveCamera, type OrthographicCamera } from "three";
 

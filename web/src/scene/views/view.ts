@@ -45,7 +45,7 @@ export abstract class View implements ViewController {
     new FrameProperty("Target Frame", FIXED_FRAME, { description: "Frame that the view follows" }),
   );
   readonly nearClip = this.add(new NumberProperty("Near Clip Distance", 0.01, { min: 0.001, max: 10, unit: "m" }));
-  /** Keys of the file that are not ours, kept as they were. */
+  /** Keys of the file that the page does not know, saved unchanged. */
   private unknown: YamlMapping = {};
 
   abstract readonly kind: "perspective" | "orthographic";

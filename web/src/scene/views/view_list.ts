@@ -18,7 +18,7 @@ import { SensorCamera } from "./sensor_camera";
 import type { View } from "./view";
 import { classOfView, copyOfView, createView, loadView, VIEW_CLASSES } from "./view_classes";
 
-/** First sides of further panes, which look without perspective. */
+/** First sides of further panes, whose views are orthographic. */
 const FURTHER: readonly SixSides[] = ["top", "front", "right"];
 
 /** Key of the panes among the views of a file. */
@@ -35,9 +35,9 @@ export class ViewList implements Views {
     this.layout.value = layout;
   };
   private readonly known = new Map<Pane, PaneView>();
-  /** Saved views of other classes, kept as they were. */
+  /** Saved views of unknown classes, saved unchanged. */
   private unknown: readonly YamlMapping[] = [];
-  /** True if the file has panes, which have not changed since. */
+  /** True if the loaded file has panes, and the layout has not changed since. */
   private hasPanes = false;
   private readonly stop: () => void;
 
@@ -169,7 +169,7 @@ export class ViewList implements Views {
     return view;
   }
 
-  /** View of the active pane's focal point, from a side and without perspective. */
+  /** Orthographic view of the active pane's focal point from a side. */
   private besides(side: SixSides): Orbit {
     const { view, target } = this.viewOf(this.scene.panes.active.peek());
     const shown = view.peek();

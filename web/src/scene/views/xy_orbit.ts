@@ -9,7 +9,7 @@ import { triple, type Motion, type Picture } from "./view";
 export class XYOrbit extends Orbit {
   override readonly className: string = "rviz/XYOrbit";
 
-  /** Shift so that the ground follows the pointer; nearly level views shift as if they were steeper. */
+  /** Shift so that the ground follows the pointer; a nearly level view shifts as if it were steeper. */
   override pan(dx: number, dy: number, picture: Picture): void {
     const perPixel = (2 * this.distance.value.peek() * Math.tan(this.fieldOfView.value.peek() / 2)) / picture.height;
     const [yaw, pitch] = [this.yaw.value.peek(), this.pitch.value.peek()];

@@ -9,7 +9,7 @@ const NUMBERS = 7;
 /** Largest number of past poses that are kept, and their age [ns]. */
 const MAX_PAST = 16;
 const MAX_AGE = 500_000_000n;
-/** Pose while it is read, and the one after it while interpolating. */
+/** Buffers: the pose that is read, and the next pose for interpolation. */
 const POSE = { position: new Vector3(), orientation: new Quaternion() };
 const AFTER = { position: new Vector3(), orientation: new Quaternion() };
 
@@ -20,7 +20,7 @@ interface Past {
   readonly moved: readonly number[];
 }
 
-/** Numbers of a pose: x y z [m], quaternion x y z w; the newest of each body. */
+/** Poses of the bodies; the numbers of a pose are x y z [m], quaternion x y z w. */
 export class BodyPoses {
   /** Time of the newest message [ns]. */
   time = 0n;
@@ -32,7 +32,7 @@ export class BodyPoses {
   /** Time at which the bodies are drawn [ns]. */
   drawnAt = 0n;
   private hasMoved = false;
-  /** Poses at the newest time as they came first; null: nothing came again at that time. */
+  /** First poses that came for the newest time; null: only one message came for that time. */
   private first: Float32Array | null = null;
 
   /** Attach the object that follows a body. */
@@ -66,7 +66,7 @@ export class BodyPoses {
     };
   }
 
-  /** Pose of a body when its newest time first came, before edits while time stands still; null: it is as it was. */
+  /** Pose of a body before edits while time stands still; null: no edit has moved it. */
   poseBefore(body: number): Transform | null {
     const at = body * NUMBERS;
     const { first, numbers } = this;
@@ -95,7 +95,7 @@ export class BodyPoses {
     let at = HEADER + 4 * count;
     if (message.byteLength < at + 4 * NUMBERS * count) return false;
     const time = message.getBigUint64(0, true);
-    if (time <= this.time) this.past = []; // time stands still or goes back: what was moved is shown at once
+    if (time <= this.time) this.past = []; // time stands still or goes back: the new poses show at once
     this.first = time === this.time ? (this.first ?? this.numbers.slice()) : null;
     this.time = time;
     const moved: number[] = [];
@@ -158,7 +158,7 @@ export class BodyPoses {
     this.move(object);
   }
 
-  /** Move an object to the pose that was read, if that can be seen: physics never stands quite still. */
+  /** Move an object to the pose that was read, unless the change is invisible: bodies at rest jitter a little. */
   private move({ position, quaternion }: Object3D): void {
     if (looksSame(position, quaternion, POSE)) return;
     position.copy(POSE.position);

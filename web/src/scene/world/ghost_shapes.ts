@@ -1,4 +1,4 @@
-/** Shapes of robots by the frames of their links, of which the ghost of a bag is made. */
+/** Shapes of robots by their links' frames; the ghost of a bag consists of them. */
 
 import { signal, type ReadonlySignal } from "@preact/signals";
 import type { Object3D } from "three";

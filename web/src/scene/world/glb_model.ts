@@ -18,7 +18,7 @@ import { sdfColors, sdfMaterial, sdfVariant } from "./sdf_material";
 import { CASTERS } from "./shadow_map";
 import type { WorldLighting } from "./world_lighting";
 
-/** Geometries and textures that several files have, by the names of their contents. */
+/** Geometries and textures that several files share, by the names of their contents. */
 export class SharedContents {
   private readonly geometries = new Map<string, BufferGeometry>();
   private readonly textures = new Map<string, Texture>();
@@ -130,7 +130,7 @@ export class GlbModel {
     mesh.material = material;
     this.plain.set(mesh, { mesh, material });
     const extras = { ...mesh.parent?.userData, ...mesh.userData } as Record<string, unknown>;
-    if (mesh instanceof SkinnedMesh) mesh.frustumCulled = false; // its bones move it out of its own bounds
+    if (mesh instanceof SkinnedMesh) mesh.frustumCulled = false; // bones move the mesh out of its bounds
     if (extras["casts_shadow"] !== false && !material.transparent) mesh.layers.enable(CASTERS);
   }
 

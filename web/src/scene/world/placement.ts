@@ -1,8 +1,8 @@
 /**
  * Place of the simulated world in the fixed frame.
  *
- * A frame that a body carries is in both: its pose in the world comes with the bodies' poses, its pose in the fixed
- * frame from tf. Both are taken at one time, so that the world stands still while the robot moves.
+ * A frame that a body carries is in the world and in tf: its pose in the world comes with the bodies' poses, in the
+ * fixed frame from tf. Both poses are read at one time, so that the world stands still while the robot moves.
  */
 
 import { Matrix4, Quaternion, Vector3, type Group } from "three";
@@ -14,9 +14,9 @@ import type { BodyPoses } from "./body_poses";
 
 /** Largest number of poses kept until tf has caught up. */
 const MAX_PAST = 64;
-/** Largest time that the world is drawn in the past so that it matches tf [ns]; slower frames lag behind it. */
+/** Largest delay with which the world is drawn to match tf [ns]; frames that tf sends later lag behind the world. */
 const MAX_LAG = 250_000_000n;
-/** Smaller changes are rounding [m]. */
+/** Smaller changes count as rounding errors [m]. */
 const STILL = 1e-4;
 const ONE = new Vector3(1, 1, 1);
 
@@ -32,7 +32,7 @@ export class WorldPlacement {
     private readonly frames: DrawnFrames,
   ) {}
 
-  /** Store the anchor's pose of new poses. */
+  /** Store the anchor's pose at the time of the newest poses. */
   remember(manifest: Manifest): void {
     const anchor = manifest.frames.find(({ body }) => body === manifest.robot) ?? manifest.frames[0] ?? null;
     if (anchor?.frame !== this.anchor?.frame || anchor?.body !== this.anchor?.body) this.past.length = 0;
@@ -44,7 +44,7 @@ export class WorldPlacement {
   }
 
   /**
-   * Draw bodies and frames at one time, the newest that both poses and tf have.
+   * Draw bodies and frames at one time: the newest time that both the poses and tf have.
    * While time stands still, both are drawn as they are now.
    */
   synchronize(fixedFrame: string, isPaused: boolean): void {
@@ -72,7 +72,7 @@ export class WorldPlacement {
     return true;
   }
 
-  /** Tell the frames what was moved while time stands still, since nothing publishes tf then. */
+  /** Tell the frames how edits moved the bodies while time stands still, since nothing publishes tf then. */
   moveFrames({ frames }: Manifest, fixedFrame: string, isPaused: boolean): void {
     const name = fixedFrame.replace(/^\//, "");
     const moved = isPaused && frames.some(({ body }) => this.poses.poseBefore(body) !== null);
@@ -88,7 +88,7 @@ export class WorldPlacement {
     });
     const fixed = this.matrix.copy(this.group.matrix);
     const ofFixed = inWorld.find(([frame]) => frame === fixedFrame)?.[1];
-    if (ofFixed !== undefined) fixed.multiply(ofFixed); // the world's place in it before it was moved itself
+    if (ofFixed !== undefined) fixed.multiply(ofFixed); // the world's place in the fixed frame before that frame was moved
     const back = this.other.copy(fixed).invert();
     return new Map(inWorld.map(([frame, motion]) => [frame, poseOf(motion.premultiply(fixed).multiply(back))]));
   }
@@ -103,7 +103,7 @@ export class WorldPlacement {
       if (past === undefined) break;
       const inFixed = this.frames.lookup(fixedFrame, this.anchor.frame, past.time);
       if (inFixed instanceof NoTransform) continue;
-      this.past.splice(0, i); // older ones are not looked up again
+      this.past.splice(0, i); // older poses are not needed any more
       return this.set(this.matrix, inFixed).multiply(this.set(this.other, past.pose).invert());
     }
     return null;

@@ -50,7 +50,7 @@ export function sdfMaterial(
   if (isFlat) defines["FLAT"] = "";
   if (texture !== null) {
     defines["TEXTURED"] = "";
-    texture.colorSpace = ""; // its numbers are used as they are
+    texture.colorSpace = ""; // the shader uses the sRGB numbers unchanged
     texture.anisotropy = ANISOTROPY;
     texture.updateMatrix();
     uniforms["image"] = { value: texture };
@@ -58,7 +58,7 @@ export function sdfMaterial(
   }
   const isTransparent = diffuse[3] < 1;
   const material = new ShaderMaterial({
-    // behind what displays draw at the same place: rviz's model of a robot that is simulated
+    // behind displays' objects at the same place, such as the RobotModel of a simulated robot
     polygonOffset: true,
     polygonOffsetFactor: 1,
     polygonOffsetUnits: 1,
@@ -89,7 +89,7 @@ export function sdfVariant(
   const variantUniforms: ShaderMaterial["uniforms"] = { ...uniforms, diffuse: { value: diffuse } };
   const emissive = uniforms["emissive"]?.value as Color;
   if (wireframe)
-    variantUniforms["emissive"] = { value: emissive.clone().add(new Color(diffuse.x, diffuse.y, diffuse.z)) }; // no light falls on lines
+    variantUniforms["emissive"] = { value: emissive.clone().add(new Color(diffuse.x, diffuse.y, diffuse.z)) }; // lines have no shading
   const isBlended = diffuse.w < 1;
   const { polygonOffset, polygonOffsetFactor, polygonOffsetUnits } = plain;
   const material = new ShaderMaterial({

@@ -1,6 +1,6 @@
 /**
- * Outlines of the selections, own and others': thin around a model, broad around a link; seen through what is before
- * it.
+ * Outlines of this person's and other people's selections: thin around a model, broad around a link; visible through
+ * other objects.
  */
 
 import { effect } from "@preact/signals";
@@ -135,7 +135,7 @@ export class SelectionOutline {
     this.stops = [
       scene.addStep({ afterPane: (renderer, camera) => this.draw(renderer, camera) }),
       effect(() => {
-        world.progress.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- models that come are outlined, too
+        world.progress.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- also outlines models that are loaded later
         this.mark(world, outlined());
       }),
     ];
@@ -249,7 +249,7 @@ export class SelectionOutline {
     for (let i = 0; i < 8 && !box.isEmpty(); i += 1) {
       corner.set(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z);
       if (corner.applyMatrix4(camera.matrixWorldInverse).z > -1e-3) {
-        bounds.set(0, 0, width, height); // beside or behind
+        bounds.set(0, 0, width, height); // a corner is beside or behind the camera
         return;
       }
       corner.applyMatrix4(camera.projectionMatrix);

@@ -25,7 +25,7 @@ const [MIN_SIZE, MAX_SIZE] = [512, 2048];
 const SPOT_SIZE = 1024;
 const SPOT_FAR = 200;
 const NEAR = 0.01;
-/** Texels at the edge that nothing casts a shadow on. */
+/** Texels at the edge that stay free of shadow casters. */
 const MARGIN = 4;
 
 export class ShadowMap {
@@ -140,7 +140,7 @@ export class ShadowMap {
     this.target?.dispose();
     const depth = new DepthTexture(size, size, FloatType);
     depth.compareFunction = LessEqualCompare;
-    depth.minFilter = depth.magFilter = LinearFilter; // four texels, compared each
+    depth.minFilter = depth.magFilter = LinearFilter; // compares four texels, each by itself
     this.target = new WebGLRenderTarget(size, size, { depthTexture: depth });
     return this.target;
   }

@@ -1,4 +1,4 @@
-/** Gazebo's sky as Trundle's renderer paints it: from the horizon's color to the zenith's (cpp/render/kernel.cc). */
+/** Gazebo's sky as Trundle's renderer draws it: from the horizon's color to the zenith's (cpp/render/kernel.cc). */
 
 import { BufferGeometry, Float32BufferAttribute, Mesh, ShaderMaterial, Vector3 } from "three";
 

@@ -33,7 +33,7 @@ export class WorldCollisions {
           if (abort.signal.aborted) return;
           this.shown = { url, model };
           for (const shapes of model.bodies.values()) {
-            delete shapes.userData["body"]; // it belongs to the loaded body
+            delete shapes.userData["body"]; // the world's object of the body has this entry
             shapes.position.set(0, 0, 0);
             shapes.quaternion.identity();
           }

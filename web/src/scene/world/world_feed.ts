@@ -33,7 +33,7 @@ export class WorldFeed implements SimulatedWorld {
   readonly referenceInfo = computed(() => this.manifest.value?.reference ?? this.bag.value);
   /** Bag that the topics are compared with. */
   private readonly bag = signal<ReferenceInfo | null>(null);
-  /** True once the first world is loaded: before, a grid alone would look like an empty one. */
+  /** True once the first world is loaded; before, the grid is hidden, since a grid alone means an empty world. */
   private readonly hasLoaded = signal(false);
   private readonly lighting = new WorldLighting();
   private readonly files: WorldFiles;
@@ -171,7 +171,7 @@ export class WorldFeed implements SimulatedWorld {
       }),
       effect(() => {
         if (connection.state.value.kind === "connected") return;
-        this.poses.forgetPoses(); // the server sends all of them again
+        this.poses.forgetPoses(); // a new connection sends all poses again
       }),
     );
   }
@@ -183,7 +183,7 @@ export class WorldFeed implements SimulatedWorld {
       this.isDrawn.value = false;
       if (!isLoaded.value) return;
       this.hasLoaded.value = true;
-      let isBegun = false; // the next picture to be shown may have been drawn before
+      let isBegun = false; // the next shown picture may have been drawn before
       const stop = this.scene.addStep({
         before: () => {
           isBegun = true;
@@ -264,7 +264,7 @@ export class WorldFeed implements SimulatedWorld {
     if (this.poses.takeMoved() || hasGhostMoved || isPlaced) this.redraw();
   }
 
-  /** Place all at one time; true: the recording that the world is compared with has moved. */
+  /** Draw bodies, frames and the ghost at one time; true: the ghost has moved. */
   private synchronize(): boolean {
     this.placement.synchronize(this.fixedFrame.peek(), this.state.peek()?.paused ?? true);
     return this.showGhost();

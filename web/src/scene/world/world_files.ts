@@ -77,7 +77,7 @@ export class WorldFiles {
 
   private async load({ id, url, entry }: (typeof this.waiting)[number]): Promise<void> {
     const onShare = (share: number): void => {
-      entry.share = 0.95 * share; // the rest is for reading it
+      entry.share = 0.95 * share; // the rest counts for parsing the file
       this.count();
     };
     try {

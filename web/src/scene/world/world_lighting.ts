@@ -145,7 +145,7 @@ export class WorldLighting {
     for (const { shadow } of this.lights) shadow?.dispose();
     let maps = 0;
     const lights = objects.map((light): WorldLight => {
-      light.visible = false; // three.js' own shading ignores it
+      light.visible = false; // hides it from three.js' own shading
       const sdf = light.userData["sdf"] as SdfLight;
       const kind = kindOf(light);
       const isShadowed = hasShadows && sdf.cast_shadows && kind !== "point" && maps < MAX_SHADOWS;
@@ -161,7 +161,7 @@ export class WorldLighting {
       };
     });
     if (lights.length === 0) lights.push(defaultSun());
-    // those with shadow maps come first, as the shader has them
+    // the shader expects lights with shadow maps first
     lights.sort((a, b) => Number(b.shadow !== null) - Number(a.shadow !== null));
     this.lights = lights.slice(0, MAX_LIGHTS);
     for (const light of this.lights) setConstants(light);
@@ -181,7 +181,7 @@ export class WorldLighting {
   }
 
   private place({ object, uniform }: WorldLight): void {
-    if (object.parent === null) return; // the default sun stays
+    if (object.parent === null) return; // the default sun does not move
     uniform.position.setFromMatrixPosition(object.matrixWorld);
     uniform.toLight.setFromMatrixColumn(object.matrixWorld, 2).normalize();
   }

@@ -90,7 +90,7 @@ export class WorldLines extends Group {
     setPoints(drawn.geometry, points);
     drawn.material.color.setRGB(red, green, blue, SRGBColorSpace);
     drawn.material.opacity = alpha;
-    if (drawn.material.transparent !== alpha < 1) drawn.material.needsUpdate = true; // its program writes alpha, or does not
+    if (drawn.material.transparent !== alpha < 1) drawn.material.needsUpdate = true; // opaque and blended materials have different programs
     drawn.material.transparent = alpha < 1;
   }
 

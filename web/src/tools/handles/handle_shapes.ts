@@ -1,4 +1,4 @@
-/** Shapes of handles, along and about the z axis of their group: thin to the eye, broad to the pointer. */
+/** Shapes of handles, along and about the z axis of their group: thin to see, broad to pick. */
 
 import {
   ConeGeometry,

@@ -43,7 +43,7 @@ export class PulledPoint {
     this.line.userData[NOT_PICKED] = true;
   }
 
-  /** Grasp the object under the pointer; false: none can be pulled. */
+  /** Grasp the object under the pointer; false: there is none that can be pulled. */
   begin(input: PointerInput): boolean {
     const { scene, editor } = this;
     const pick = scene.pick(input.x, input.y);

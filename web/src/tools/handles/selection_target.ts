@@ -102,7 +102,7 @@ function jointTarget(editor: WorldEditor, model: string, name: string): HandleTa
     begin: () => {
       const start = pose();
       const from = editor.world.joints.peek().at(index)?.position ?? 0;
-      const request = editor.world.state.peek()?.paused === true ? "place_joint" : "joint"; // at rest no motor moves it
+      const request = editor.world.state.peek()?.paused === true ? "place_joint" : "joint"; // no motor moves it while paused
       const positionAt = (to: Transform): number => {
         const by = start === null ? 0 : turns ? turnAbout(direction, start, to) : distanceAlong(direction, start, to);
         return within(joint, from + by);
