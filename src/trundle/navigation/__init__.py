@@ -1,1 +1,1 @@
-"""Stand-ins for the nodes of ROS' navigation: one room each for what localizes, maps, plans and drives."""
+"""Stand-ins for the nodes of ROS' navigation: localization, mapping, planning, exploration, scans."""

@@ -7,13 +7,13 @@ from numpy import float32, float64, int32, uint8, uint32
 from numpy.typing import NDArray
 
 UNREACHED: float
-"""Potential of cells that no way reaches."""
+"""Potential of cells that no path reaches."""
 _Triple: TypeAlias = tuple[float, float, float]
 
 def inflate(
     cells: NDArray[uint8], window: tuple[int, int, int, int], costs: Sequence[int], *, inflate_unknown: bool
 ) -> None:
-    """Raise the costs in a window by the exact distance to the nearest lethal cell, also of those beyond it.
+    """Raise the costs in a window by the exact distance to the nearest lethal cell, inside the window or outside.
 
     Args:
         cells: costs, changed in place.
@@ -28,8 +28,8 @@ def clear_rays(cells: NDArray[uint8], sensor: tuple[float, float], ends: NDArray
     Args:
         cells: costs, changed in place.
         sensor: x, y in cells; (0, 0) is the outer corner of the first one.
-        ends: (n, 2) in cells.
-        range: in cells.
+        ends: (n, 2) ends of the rays, in cells.
+        range: greatest length that is freed, in cells.
 
     Raises:
         ValueError: the sensor is outside the grid.
@@ -51,7 +51,7 @@ def clear_voxel_rays(
         voxels: columns, changed in place: bits 0 … 15 unknown or occupied levels, 16 … 31 occupied ones.
         cells: costs, changed in place: free, or unknown with more than `unknown_threshold` unknown levels.
         sensor: x, y, level; (0, 0, 0) is the outer corner of the first voxel.
-        ends: (n, 3)
+        ends: (n, 3) ends of the rays, as `sensor`.
         levels: number of levels, at most 16.
         unknown_threshold: greatest number of unknown levels of a free column.
         mark_threshold: greatest number of occupied levels of a column without an obstacle.
@@ -60,7 +60,7 @@ def clear_voxel_rays(
 def wave_front(
     costs: NDArray[float32], seeds: Sequence[tuple[int, int]], *, stop: tuple[int, int] = (-1, -1)
 ) -> NDArray[float32]:
-    """Return the least cost of a way from any seed to each cell, by the eikonal equation.
+    """Return the cost of the cheapest path from any seed to each cell, by the eikonal equation.
 
     Args:
         costs: cost of crossing a cell; not positive or ≥ UNREACHED: impassable.
@@ -69,17 +69,17 @@ def wave_front(
     """
 
 def descend(potential: NDArray[float32], start: tuple[int, int], end: tuple[int, int]) -> NDArray[float64]:
-    """Return the steepest descent (n, 2) from a cell to a seed, in cells, where (0, 0) is a center; empty if none."""
+    """Return the steepest descent (n, 2) from a cell to a seed, in cells from the first cell's center; empty: none."""
 
 def find_frontiers(costs: NDArray[uint8], start: tuple[int, int]) -> NDArray[int32]:
     """Return the cells (n, 3) of frontiers: number of the frontier, column, row.
 
-    A frontier's cells are unknown, touch each other, and lie beside free cells, some of which the start is connected
-    with. Frontiers are in the order of their distances along the way.
+    A frontier's cells are unknown, touch each other, and lie beside free cells; at least one of these is connected
+    with the start. Frontiers are sorted by the length of the path to them.
     """
 
 class RolloutSettings:
-    """How trajectories are simulated, and where they are measured."""
+    """How trajectories are simulated, and at which point their alignment is measured."""
 
     def __init__(
         self,
@@ -100,12 +100,13 @@ class RolloutSettings:
             angular_granularity: angle between two points [rad].
             forward_point: point ahead of the center, where the alignment is measured [m].
             acceleration: limits of x, y [m/s²] and yaw [rad/s²].
-            accelerates: True: the velocity changes all the way from the present one to the sample.
-            sums_costs: True: costs of obstacles add up along the way; False: the highest counts.
+            accelerates: True: the robot accelerates to the sample's velocity within the limits; False: it has that
+                velocity at once.
+            sums_costs: True: costs of obstacles add up along the trajectory; False: the highest counts.
         """
 
 class RolloutMaps:
-    """Grids that trajectories are scored in; they must not change while it is used."""
+    """Grids in which trajectories are scored; the arrays must not change while this object is used."""
 
     def __init__(
         self,
@@ -129,13 +130,13 @@ def score_rollouts(
 ) -> NDArray[float64]:
     """Return the terms (n, 6) of trajectories: obstacles, path, goal, front, alignment, number of points.
 
-    Obstacles: a cost of costmap_2d, −1 in a collision, −2 off the map or in unknown space; the others in cells, at the
-    trajectory's end.
+    Obstacles: a cost of costmap_2d, −1 in a collision, −2 off the map or in unknown space. Path, goal, front and
+    alignment: distances at the trajectory's end, in cells.
 
     Args:
         settings: see `RolloutSettings`.
         maps: see `RolloutMaps`.
-        footprint: (n, 2) polygon around the robot's origin [m]; under three points: the center alone.
+        footprint: (n, 2) polygon around the robot's origin [m]; fewer than three points: only the origin's cell.
         pose: x, y [m] and yaw [rad] now.
         velocity: velocity now, in the robot's frame [m/s], [rad/s].
         targets: (n, 3) velocities of the samples.

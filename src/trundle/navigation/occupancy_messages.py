@@ -19,7 +19,7 @@ def read_cells(message: "nav_msgs.OccupancyGrid") -> NDArray[np.int8]:
     info = message.info
     cells = np.asarray(message.data, dtype=np.int8)
     if cells.size != info.width * info.height:
-        raise ValueError(f"{info.width} × {info.height} cells are announced, and {cells.size} are there")
+        raise ValueError(f"{cells.size} cells do not fit the size {info.width} × {info.height}")
     if not 0.0 < info.resolution < math.inf:
         raise ValueError(f"its resolution must be > 0 m, got {info.resolution:g}")
     return np.ascontiguousarray(cells.reshape(info.height, info.width))

@@ -1,4 +1,4 @@
-"""Scans matched one after the other beside the graph's thread, which simulated time waits for."""
+"""Scans processed one after the other in a worker thread; simulated time waits for them."""
 
 import asyncio
 from collections import deque
@@ -17,7 +17,7 @@ _MAX_BEAMS = 100_000
 
 
 class ScanQueue:
-    """Waiting scans; the oldest is dropped."""
+    """Maximum number of waiting scans; beyond it, the oldest is dropped."""
 
     def __init__(self, node: Node, process: "Callable[[sensor_msgs.LaserScan], Awaitable[None]]", *, size: int) -> None:
         self._node = node
@@ -26,7 +26,7 @@ class ScanQueue:
         self._is_waiting = asyncio.Event()
 
     def add(self, scan: "sensor_msgs.LaserScan") -> None:
-        """Process a scan after those before it."""
+        """Process a scan once the earlier ones are done."""
         self._waiting.append(scan)
         self._is_waiting.set()
 

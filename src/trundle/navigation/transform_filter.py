@@ -8,7 +8,7 @@ from trundle.ros import Node, TransformBuffer, TransformError, TransformListener
 
 
 class TransformFilter:
-    """Passes stamped messages on in order, each once `target` from its frame is known at its stamp.
+    """Passes stamped messages on in order, each once the transform from its frame to `target` is known at its stamp.
 
     A message that is older than one passed on is dropped: its transform will not arrive any more.
     """

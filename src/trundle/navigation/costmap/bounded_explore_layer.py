@@ -16,15 +16,15 @@ class BoundedExploreSettings(msgspec.Struct, kw_only=True):
 
     enabled: bool = True
     explore_clear_space: bool = True
-    """True: what layers below know to be free is unknown."""
+    """True: cells that the layers below hold as free become unknown."""
     resize_to_boundary: bool = True
-    """True: the costmap covers the polygon."""
+    """True: the costmap's size becomes that of the polygon."""
     frontier_travel_point: str = "closest"
-    """Point of a frontier that is driven to: closest, middle or centroid."""
+    """Point of a frontier to drive to: closest, middle or centroid."""
 
 
 class BoundedExploreLayer:
-    """Closes a costmap along a polygon, which `set_boundary` gives."""
+    """Marks the edge of a polygon as an obstacle; `set_boundary` sets the polygon."""
 
     is_current = True
 
@@ -78,7 +78,7 @@ class BoundedExploreLayer:
             bounds.touch_all(self._master)
 
     def update_costs(self, master: Costmap, window: tuple[int, int, int, int]) -> None:
-        """Write unknown space and the edge."""
+        """With explore_clear_space, make all but obstacles unknown; write the polygon's edge as obstacles."""
         if self._polygon is None:
             return
         x0, y0, x1, y1 = window
@@ -96,7 +96,7 @@ def _edge_cells(costmap: Costmap, polygon: NDArray[np.float64]) -> list[tuple[ND
     edges: list[tuple[NDArray[np.int64], NDArray[np.int64]]] = []
     limit = float(costmap.width + costmap.height)
     for start, end in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        # beyond the costmap an edge is not followed
+        # an edge far outside the costmap is shortened
         start, end = np.clip(start, -limit, 2.0 * limit), np.clip(end, -limit, 2.0 * limit)
         count = 2 * math.ceil(np.abs(end - start).max()) + 2
         points = np.floor(start + (end - start) * np.linspace(0.0, 1.0, count)[:, None]).astype(np.int64)

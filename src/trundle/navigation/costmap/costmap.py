@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 FREE_SPACE, INSCRIBED, LETHAL, NO_INFORMATION = 0, 253, 254, 255
-"""Costs of costmap_2d: between free and inscribed, the center of the robot may be there."""
+"""Costs of costmap_2d; the robot's center may be in cells below INSCRIBED."""
 MAX_CELLS = 100_000_000
-"""Most cells of one grid."""
+"""Maximum number of cells of a grid."""
 _ROUNDING = 1e-6
-"""Share of a cell by which a point may lie before it [cells], so that grids which follow one another stay together."""
+"""Rounding error allowed at a cell's edge [cells], so that grids which follow one another stay aligned."""
 _Number = TypeVar("_Number", np.uint8, np.uint32)
 
 
@@ -26,7 +26,7 @@ class Costmap:
     origin: tuple[float, float]
     """Outer corner of the first cell [m]."""
     default: int = FREE_SPACE
-    """Cost of cells that nothing was observed of."""
+    """Cost of cells before any observation."""
     cells: NDArray[np.uint8] = field(init=False)
     """(height, width)"""
 
@@ -38,7 +38,7 @@ class Costmap:
         self.cells = np.full((self.height, self.width), self.default, dtype=np.uint8)
 
     def copy(self) -> "Costmap":
-        """Return a costmap of the same costs, which stay."""
+        """Return a copy, whose costs later updates do not change."""
         grid = Costmap(*self.geometry, self.default)
         grid.cells = self.cells.copy()
         return grid

@@ -96,7 +96,7 @@ class CostmapRos:
             reconfigure(node, f"{space}/{layer.name}", layer.options, layer.change)
 
     def _on_settings(self) -> None:
-        """Take a footprint set at run time; the size stays that of the start."""
+        """Take a footprint set at run time; width, height and resolution keep their first values."""
         try:
             value = RosParameters({"footprint": self.settings.footprint}, f"{self._node.name}/{self.name}")
             self._set_footprint(read_footprint(value, self.settings.robot_radius, self.settings.footprint_padding))
@@ -111,7 +111,7 @@ class CostmapRos:
 
     @property
     def costmap(self) -> Costmap:
-        """The costs."""
+        """The grid of costs."""
         return self._layered.costmap
 
     @property
@@ -125,7 +125,7 @@ class CostmapRos:
 
     @property
     def is_current(self) -> bool:
-        """True if the sensors' data are new enough to drive by."""
+        """True if the sensors' data are recent enough to drive."""
         return self._layered.is_current
 
     async def start(self) -> None:
@@ -207,7 +207,7 @@ class CostmapRos:
         self.update()
 
     def clear_outside(self, size_m: float, layers: list[str], *, invert: bool) -> None:
-        """Forget the obstacles of layers outside a square around the robot [m], or with `invert` inside it."""
+        """Forget the layers' obstacles outside a square around the robot [m]; with `invert`, those inside it."""
         pose = self.robot_pose()
         if pose is not None:
             self._layered.clear_outside(pose[0], pose[1], size_m, layers, invert=invert)
@@ -215,7 +215,7 @@ class CostmapRos:
 
 
 def _read(section: RosParameters) -> CostmapSettings:
-    """Read the settings; a footprint may be a list, which is read elsewhere."""
+    """Read the settings except `footprint`, which may be a list: see `read_footprint`."""
     defaults = CostmapSettings()
     numbers = [name for name in CostmapSettings.__struct_fields__ if name != "footprint"]
     tree = {name: section.number(name, getattr(defaults, name)) for name in numbers}

@@ -10,7 +10,7 @@ from trundle.base.yaml_loader import load_yaml
 from trundle.robots.parameters import ParamError, RosParameters
 
 _CIRCLE_CORNERS = 16
-"""As of costmap_2d."""
+"""Number of corners that stand for a circle, as in costmap_2d."""
 _MAX_CORNERS = 1000
 
 
@@ -25,7 +25,7 @@ def read_footprint(settings: RosParameters, robot_radius_m: float, padding_m: fl
     if isinstance(value, str):
         try:
             value = load_yaml(value) if value.strip() else []
-        except Exception as error:  # of yaml, for text of any kind
+        except Exception as error:  # PyYAML raises errors of many types for invalid text
             raise ParamError(f"{label}: {value!r} is not a list of points: {error}") from None
     points = corners(value or [], label)
     return padded(circle(robot_radius_m) if not len(points) else points, padding_m)

@@ -36,7 +36,7 @@ def inflated_costs(settings: InflationSettings, resolution_m: float, inscribed_m
 
 
 class InflationLayer:
-    """Inflates what the layers before it marked."""
+    """Inflates the obstacles that the layers below marked."""
 
     is_current = True
 
@@ -60,7 +60,7 @@ class InflationLayer:
         self.change()
 
     def change(self) -> None:
-        """Compute the costs again, and everywhere, at the next update."""
+        """Compute all costs again at the next update."""
         self._is_changed = True
 
     def match_size(self) -> None:
@@ -72,7 +72,7 @@ class InflationLayer:
         self.change()
 
     def update_bounds(self, robot: tuple[float, float, float], bounds: Bounds) -> None:
-        """Extend the bounds by the radius, and to those of the last update."""
+        """Join the bounds of the last update, and extend both by the inflation radius."""
         del robot
         if self._is_changed:
             self._costs = inflated_costs(self.options, self._master.resolution_m, self._inscribed_m)

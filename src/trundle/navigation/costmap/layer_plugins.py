@@ -1,4 +1,4 @@
-"""The layers that a costmap's parameters name, in Hydro's form and in that from before."""
+"""The layers that a costmap's parameters name, in the form since Hydro or in the one before it."""
 
 import re
 from collections.abc import Callable
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 def plugin_list(node: Node, settings: RosParameters) -> list[tuple[str, str, RosParameters]]:
-    """Return name, type and parameters of each layer; without `plugins`, as before Hydro."""
+    """Return name, type and parameters of each layer; without `plugins`, those from before Hydro."""
     if "plugins" in settings:
         listed = settings.sections("plugins")
         names = [(section.text("name"), section.text("type")) for section in listed]
@@ -36,7 +36,7 @@ def plugin_list(node: Node, settings: RosParameters) -> list[tuple[str, str, Ros
         ("obstacle_layer", f"costmap_2d::{kind}"),
         ("inflation_layer", "costmap_2d::InflationLayer"),
     ]
-    # A layer's own namespace counts, too, as after the original has moved the parameters there.
+    # A layer's own namespace is read, too: the original moves the parameters into it.
     return [(name, kind, settings) for name, kind in names]
 
 
@@ -59,7 +59,7 @@ class LayerMaker:
         Args:
             node: node of the costmap.
             settings: parameters of the costmap.
-            root: parameters of the node, which ranges of observations are searched in, too.
+            root: parameters of the node, where ranges of observations are searched after `settings`.
             master: the costmap.
             buffer: transforms.
             frame: frame of the costmap.
@@ -74,7 +74,7 @@ class LayerMaker:
         self._is_rolling = is_rolling
 
     def make(self, name: str, kind: str, settings: RosParameters) -> "Layer | None":
-        """Make a layer; None, with an error in the log, for a type that there is no stand-in for."""
+        """Make a layer; None, with an error in the log, for a type without a stand-in."""
         short = re.split("::|/", kind)[-1]
         make = _MAKERS.get(short)
         if make is None:
@@ -85,7 +85,7 @@ class LayerMaker:
             return None
         if short == "SpatioTemporalVoxelLayer":
             self._node.log.warn(
-                f"{self._settings.namespace}/{name}: {kind} is a VoxelLayer here, which forgets by rays"
+                f"{self._settings.namespace}/{name}: a VoxelLayer replaces {kind}; rays clear its voxels, not time"
             )
         return make(self, name, settings)
 

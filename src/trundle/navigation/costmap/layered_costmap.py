@@ -34,7 +34,7 @@ class Layer(Protocol):
 
     @property
     def is_current(self) -> bool:
-        """True if its sensors' data are new enough."""
+        """True if the data of the layer's sensors are recent enough."""
         ...
 
     def match_size(self) -> None:
@@ -42,11 +42,11 @@ class Layer(Protocol):
         ...
 
     def reset(self) -> None:
-        """Discard what was observed so far."""
+        """Discard all observations."""
         ...
 
     def update_bounds(self, robot: tuple[float, float, float], bounds: Bounds) -> None:
-        """Extend the bounds to what will change, with the robot at x, y [m] and yaw [rad]."""
+        """Extend the bounds to the cells that will change, with the robot at x, y [m] and yaw [rad]."""
         ...
 
     def update_costs(self, master: Costmap, window: tuple[int, int, int, int]) -> None:
@@ -78,7 +78,7 @@ class LayeredCostmap:
 
     @property
     def is_current(self) -> bool:
-        """True if the data of all layers' sensors are new enough."""
+        """True if the data of all layers' sensors are recent enough."""
         return all(layer.is_current for layer in self.layers if layer.enabled)
 
     def match_size(self) -> None:
@@ -86,18 +86,18 @@ class LayeredCostmap:
         geometry = self.costmap.geometry
         for layer in self.layers:
             layer.match_size()
-        if self.costmap.geometry != geometry:  # a map below has set it
+        if self.costmap.geometry != geometry:  # a static layer below has set the size from its map
             for layer in self.layers:
                 layer.match_size()
 
     def reset(self) -> None:
-        """Forget what sensors saw."""
+        """Forget all observations."""
         self.costmap.clear()
         for layer in self.layers:
             layer.reset()
 
     def clear_outside(self, x: float, y: float, size_m: float, names: Sequence[str], *, invert: bool) -> None:
-        """Forget the obstacles of some layers outside a square around a point [m], or with `invert` inside it."""
+        """Forget the obstacles of some layers outside a square around a point [m]; with `invert`, those inside it."""
         for layer in self.layers:
             if isinstance(layer, ObstacleLayer) and layer.name in names:
                 self._cleared.join(layer.clear_outside(x, y, size_m, invert=invert))

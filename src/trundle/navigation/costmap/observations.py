@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     from trundle.ros.message_types import sensor_msgs
 
 _KEPT = 5
-"""Messages whose transforms may be missing yet."""
+"""Number of messages that may wait for their transforms."""
 _PATIENCE_NS = NS_PER_S
-"""Age of a message whose missing transform is worth a warning."""
+"""Age of a message from which a missing transform is reported."""
 _CLOUDS = {"LaserScan": "sensor_msgs/LaserScan", "PointCloud2": "sensor_msgs/PointCloud2"}
 _POINT_CLOUD = "sensor_msgs/PointCloud"
 
@@ -45,7 +45,7 @@ class SourceSettings(msgspec.Struct, kw_only=True):
 
 
 class Observation(NamedTuple):
-    """Points [m] of one message in the costmap's frame, and where the sensor was."""
+    """Points of one message and the sensor's position, in the costmap's frame [m]."""
 
     stamp_ns: int
     sensor: tuple[float, float, float]
@@ -84,7 +84,7 @@ class ObservationSource:
         self._kept.clear()
 
     def observations(self) -> list[Observation]:
-        """Return the observations to use now: those within the persistence, at least the latest."""
+        """Return the observations to use now: those not older than the persistence, and always the latest."""
         keep_ns = self.settings.observation_persistence * NS_PER_S
         latest_ns = self._node.clock.now_ns() - keep_ns
         while self._waiting:
@@ -104,7 +104,7 @@ class ObservationSource:
         return self._kept
 
     def _try_older(self) -> None:
-        """Use the newest message that has its transform; newer ones keep waiting."""
+        """Use the newest message whose transform is known; messages after it wait on."""
         for index in range(len(self._waiting) - 2, -1, -1):
             observation = self._read(self._waiting[index])
             if observation is not None:

@@ -1,4 +1,4 @@
-"""costmap_2d::ObstacleLayer: obstacles marked and cleared by what sensors see."""
+"""costmap_2d::ObstacleLayer: obstacles marked at the points that sensors measure, and cleared along their rays."""
 
 from collections.abc import Sequence
 from typing import Annotated
@@ -29,7 +29,7 @@ class ObstacleSettings(msgspec.Struct, kw_only=True):
 
 
 class ObstacleLayer:
-    """Frees the cells along the rays to what is seen, then marks the cells of what is seen near enough."""
+    """Frees the cells along the rays to observed points, then marks the cells of points within obstacle_range."""
 
     def __init__(
         self,
@@ -61,7 +61,7 @@ class ObstacleLayer:
 
     @property
     def is_current(self) -> bool:
-        """True if every sensor keeps its expected rate."""
+        """True if every sensor's last message came within its expected time."""
         return all(source.is_current for source in self._sources)
 
     def change(self) -> None:
@@ -78,7 +78,7 @@ class ObstacleLayer:
         self._grid.clear()
 
     def _roll(self) -> tuple[int, int]:
-        """Follow the costmap; returns the number of columns and rows by which it moved."""
+        """Move the origin to the costmap's; returns the numbers of columns and rows of the move."""
         return self._grid.shift_to(*self._master.origin)
 
     def reset(self) -> None:
@@ -88,7 +88,7 @@ class ObstacleLayer:
             source.clear()
 
     def clear_outside(self, x: float, y: float, size_m: float, *, invert: bool) -> Bounds:
-        """Forget obstacles outside a square around a point [m], or with `invert` inside it; returns the bounds."""
+        """Forget obstacles outside a square around a point [m], or with `invert` inside; returns changed bounds."""
         grid = self._grid
         bounds = Bounds(x - size_m / 2.0, y - size_m / 2.0, x + size_m / 2.0, y + size_m / 2.0)
         x0, y0, x1, y1 = bounds.window(grid)
@@ -140,13 +140,13 @@ class ObstacleLayer:
         )
 
     def _near(self, observation: Observation, range_m: float) -> NDArray[np.float64]:
-        """Return the points (n, 3) that are obstacles: low and near enough [m]."""
+        """Return the points (n, 3) that mark obstacles: within max_obstacle_height and the range [m]."""
         points = observation.points[observation.points[:, 2] <= self.options.max_obstacle_height]
         offsets = points - np.array(observation.sensor)
         return points[(offsets**2).sum(axis=1) < range_m**2]
 
     def _inside(self, points: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.bool_]]:
-        """Return columns and rows of the points (n, 3) in the costmap, and which of the points they are."""
+        """Return columns and rows of the points (n, 3) that are in the costmap, and a mask (n,) of these points."""
         cells = np.floor(self._grid.in_cells(points[:, :2])).astype(int)
         is_inside = np.all((cells >= 0) & (cells < np.array([self._grid.width, self._grid.height])), axis=1)
         columns, rows = cells[is_inside].T
@@ -171,7 +171,7 @@ class ObstacleLayer:
             case 1:
                 np.copyto(target, source, where=known & ((target == NO_INFORMATION) | (source > target)))
             case _:
-                pass  # the original combines nothing
+                pass  # the original writes no obstacles either
 
 
 def _free_polygon(grid: Costmap, corners: NDArray[np.float64]) -> None:

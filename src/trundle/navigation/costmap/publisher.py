@@ -1,4 +1,4 @@
-"""costmap_2d's publication of a costmap: the grid once, then what changes."""
+"""costmap_2d's publication of a costmap: the whole grid once, then the changed windows."""
 
 from typing import Any
 
@@ -46,7 +46,7 @@ class CostmapPublisher:
         self._changed = (x0, y0, x1, y1)
 
     def publish(self, costmap: Costmap) -> None:
-        """Publish what changed; the whole grid if it moved or grew."""
+        """Publish the changed window; the whole grid if its origin or size changed."""
         self._costmap = costmap
         if self._geometry != costmap.geometry or self._always_full:
             self._geometry = costmap.geometry

@@ -20,13 +20,13 @@ if TYPE_CHECKING:
 
 _Share = Annotated[float, Meta(ge=0.0, le=1.0)]
 _KEPT = 100
-"""Readings between two updates."""
+"""Maximum number of readings between two updates; older ones are dropped."""
 _EVEN = 0.5
-"""Probability of cells that nothing was seen of."""
+"""Probability of an obstacle in cells without a reading."""
 _HIT = 233
-"""Cost of the cell that a reading ends in, before its cone is counted."""
+"""Probability by LETHAL that the cell at a reading's range gets before the cone is computed."""
 _WIDER = 1.2
-"""Length of the cone's sides by the range."""
+"""Ratio of the length of the cone's sides to the range."""
 
 
 class RangeSettings(msgspec.Struct, kw_only=True):
@@ -34,9 +34,9 @@ class RangeSettings(msgspec.Struct, kw_only=True):
 
     enabled: bool = True
     phi: Annotated[float, Meta(ge=0.0)] = 1.2
-    """Range beyond which a sensor's readings count little [m]."""
+    """Distance from the sensor beyond which readings count little [m]."""
     inflate_cone: _Share = 1.0
-    """Part of the cone's surroundings that a reading changes, too."""
+    """Share of the area beside the cone's triangle that a reading changes, too."""
     no_readings_timeout: Annotated[float, Meta(ge=0.0)] = 0.0
     """Longest time without a reading [s]; 0: unlimited."""
     clear_threshold: _Share = 0.2
@@ -68,7 +68,7 @@ class RangeSensorLayer:
             master: the costmap.
             settings: parameters.
             topics: topics of the readings.
-            kind: VARIABLE for sensors that measure, FIXED for those that see an object or not, ALL for both.
+            kind: VARIABLE for sensors that measure a range, FIXED for those that only detect, ALL for both.
             frame: frame of the costmap.
             buffer: transforms.
             is_rolling: True for a rolling window.
@@ -82,7 +82,7 @@ class RangeSensorLayer:
         self._buffer = buffer
         self._is_rolling = is_rolling
         self._odds = Costmap(*master.geometry, int(LETHAL * _EVEN))
-        """Probabilities by LETHAL."""
+        """Probabilities of obstacles, multiplied by LETHAL."""
         self._waiting: list[sensor_msgs.Range] = []
         self._read_ns = node.clock.now_ns()
         self._seen = Bounds()
@@ -134,7 +134,7 @@ class RangeSensorLayer:
         self._seen = Bounds()
 
     def _range_m(self, reading: "sensor_msgs.Range") -> float | None:
-        """Return the range to count [m], infinite if nothing was seen as far as the greatest; None: left out."""
+        """Return the range to use [m]; infinite: nothing up to the maximum range; None: the reading is left out."""
         low, high, range_m = float(reading.min_range), float(reading.max_range), float(reading.range)
         clears = self.options.clear_on_max_reading
         if self._kind == "FIXED" or (self._kind == "ALL" and low == high):
@@ -186,9 +186,10 @@ class RangeSensorLayer:
     def _sensor_model(
         self, offsets: NDArray[np.float64], direction: float, half_angle: float, range_m: float
     ) -> NDArray[np.float64]:
-        """Return the probability of an obstacle at offsets from the sensor, if it measures a range; 0 within infinity.
+        """Return the probability of an obstacle at offsets from the sensor for a range; 0 for an infinite one.
 
-        In the cone, less at its sides and far away, cells before the range are likely free, and those at it occupied.
+        Cells in the cone before the range are likely free, cells at the range likely occupied; the certainty falls
+        toward the cone's sides and with the distance.
         """
         distances = np.hypot(offsets[..., 0], offsets[..., 1])
         if not math.isfinite(range_m):
@@ -204,7 +205,7 @@ class RangeSensorLayer:
         return np.select([place < -2.0, place < -1.0, place < 1.0], [before, rising, at], _EVEN)
 
     def _is_in_cone(self, points: NDArray[np.float64], triangle: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Return which points lie in a triangle, or beside it as far as `inflate_cone` says."""
+        """Return True for points in a triangle, or within the share `inflate_cone` beside it."""
         if self.options.inflate_cone >= 1.0:
             return np.ones(points.shape[:2], dtype=bool)
         following = np.roll(triangle, -1, axis=0)
@@ -218,7 +219,7 @@ class RangeSensorLayer:
         return np.all([math.copysign(1.0, area) * side >= least for side in sides], axis=0)
 
     def update_costs(self, master: Costmap, window: tuple[int, int, int, int]) -> None:
-        """Mark what is likely occupied, and free what is likely not."""
+        """Mark cells above mark_threshold, and free those below clear_threshold."""
         x0, y0, x1, y1 = window
         odds, target = self._odds.cells[y0:y1, x0:x1], master.cells[y0:y1, x0:x1]
         is_occupied = odds > int(LETHAL * self.options.mark_threshold)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from trundle.ros.message_types import people_msgs
 
 _PASSING_SIDE = 1.51
-"""Angle between a person's way and the side that PassingLayer keeps free [rad]; the original's."""
+"""Angle between a person's direction of motion and the side of PassingLayer's costs [rad], as in the original."""
 
 
 class SocialSettings(msgspec.Struct, kw_only=True):
@@ -28,13 +28,13 @@ class SocialSettings(msgspec.Struct, kw_only=True):
     cutoff: Annotated[float, Meta(ge=0.0, le=255.0)] = 10.0
     """Least cost that is written."""
     amplitude: Annotated[float, Meta(ge=0.0, le=255.0)] = 77.0
-    """Cost at a person."""
+    """Cost at a person's position."""
     covariance: Annotated[float, Meta(ge=0.0)] = 0.25
     """Variance of the costs around a person [m²]."""
     factor: Annotated[float, Meta(ge=0.0)] = 5.0
-    """Growth of the variance along a person's way by its speed [s/m]."""
+    """Growth of the variance along a person's direction of motion per speed [s/m]."""
     keep_time: Annotated[float, Meta(ge=0.0)] = 0.75
-    """Time for which people are kept [s]."""
+    """Time after which a message is too old [s]."""
 
 
 class _Person(NamedTuple):
@@ -50,7 +50,7 @@ class _Person(NamedTuple):
 
 
 class SocialLayer:
-    """Raises the costs around people_msgs/People on /people: by a Gaussian that is longer along their way."""
+    """Raises the costs around people_msgs/People on /people: by a Gaussian, longer in the direction of motion."""
 
     is_current = True
 
@@ -65,7 +65,7 @@ class SocialLayer:
             settings: parameters.
             frame: frame of the costmap.
             buffer: transforms.
-            passes: True: costs at one side of a person's way only, so that robots pass at the other.
+            passes: True: costs at one side of a person only, so that robots pass on the other side.
         """
         self.name = name
         self.options = settings
@@ -98,7 +98,7 @@ class SocialLayer:
         self._message = None
 
     def update_bounds(self, robot: tuple[float, float, float], bounds: Bounds) -> None:
-        """Extend the bounds to where people are, and to where they were at the last update."""
+        """Extend the bounds to the areas around people, now and at the last update."""
         del robot
         self._people = self._read()
         now = Bounds()

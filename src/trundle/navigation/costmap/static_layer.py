@@ -72,7 +72,7 @@ class StaticLayer:
             name: the layer's.
             master: the costmap.
             settings: parameters.
-            frame: frame of the costmap, which may differ from the map's if it rolls.
+            frame: frame of the costmap; in a rolling window it may differ from the map's.
             buffer: transforms.
             is_rolling: True for a rolling window.
         """

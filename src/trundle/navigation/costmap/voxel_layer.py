@@ -15,7 +15,7 @@ from .observations import Observation, ObservationSource
 from .obstacle_layer import ObstacleLayer, ObstacleSettings
 
 _LEVELS = 16
-"""Bits of a column for its unknown or occupied levels; as many follow for the occupied ones."""
+"""Bits of a column for its levels that are unknown or occupied; 16 more follow for those that are occupied."""
 _UNKNOWN = (1 << _LEVELS) - 1
 
 
@@ -28,16 +28,16 @@ class VoxelSettings(ObstacleSettings, kw_only=True):
     """Height of a level [m]."""
     z_voxels: Annotated[int, Meta(ge=0, le=_LEVELS)] = 10
     unknown_threshold: Annotated[int, Meta(ge=0, le=_LEVELS)] = 15
-    """Number of unknown levels in a column that is known."""
+    """Maximum number of unknown levels in a known column."""
     mark_threshold: Annotated[int, Meta(ge=0, le=_LEVELS)] = 0
-    """Number of occupied levels in a column that is free."""
+    """Maximum number of occupied levels in a free column."""
 
 
 class VoxelLayer(ObstacleLayer):
-    """Frees the voxels along the rays to what is seen, then marks those of what is seen near enough.
+    """Frees the voxels along the rays to observed points, then marks the voxels of points within obstacle_range.
 
-    A column with more than mark_threshold occupied voxels is an obstacle; one without is free, or unknown with more
-    than unknown_threshold unknown voxels.
+    A column with more than mark_threshold occupied voxels is an obstacle. Another column is unknown with more than
+    unknown_threshold unknown voxels, else free.
     """
 
     def __init__(
@@ -122,7 +122,7 @@ class VoxelLayer(ObstacleLayer):
 
     def _mark(self, observation: Observation, range_m: float, bounds: Bounds) -> None:
         points = self._near(observation, range_m)
-        levels = np.maximum(np.floor(self._heights(points)), 0.0)  # those below the lowest level count there
+        levels = np.maximum(np.floor(self._heights(points)), 0.0)  # points below the lowest level count in it
         points, levels = points[levels < self._columns.z_voxels], levels[levels < self._columns.z_voxels]
         columns, rows, is_inside = self._inside(points)
         bits = np.left_shift(np.uint32(1 | 1 << _LEVELS), levels[is_inside].astype(np.uint32))

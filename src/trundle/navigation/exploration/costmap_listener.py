@@ -1,4 +1,4 @@
-"""A costmap of a topic, with its updates."""
+"""A costmap from a topic, and updates from another."""
 
 from typing import TYPE_CHECKING
 
@@ -24,7 +24,7 @@ class CostmapListener:
     def __init__(self, node: Node, topic: str, updates_topic: str) -> None:
         """Subscribe."""
         self.costmap: Costmap | None = None
-        """None: none was received yet."""
+        """None until the first message."""
         self.frame = ""
         self._warnings = LogThrottle(node, 5.0)
         node.subscribe(topic, "nav_msgs/OccupancyGrid", self._on_grid, queue_size=1)
@@ -51,7 +51,7 @@ class CostmapListener:
         cells = np.asarray(message.data, dtype=np.int8)
         is_within = x >= 0 and y >= 0 and x + width <= self.costmap.width and y + height <= self.costmap.height
         if not is_within or cells.size != width * height:
-            self._warnings.warn("an update is ignored: it leaves the costmap, or has other cells than it announces")
+            self._warnings.warn("an update is ignored: it is not inside the costmap, or has not width × height cells")
             return
         changed = self.costmap.copy()
         changed.cells[y : y + height, x : x + width] = _costs(cells.reshape(height, width))

@@ -19,7 +19,7 @@ from .frontier import Frontier, Point, find_frontiers
 
 _POLL_S = 0.1
 _TOLERANCE_CELLS = 5.0
-"""Distance between goals that count as one, as in the original."""
+"""Distance below which two goals count as the same, as in the original [m]."""
 _BLUE, _RED, _GREEN = (
     {"b": 1.0, "a": 1.0},
     {"r": 1.0, "a": 1.0},
@@ -47,9 +47,10 @@ class ExploreSettings(Struct):
 class Explore:
     """Sends the centroids of frontiers to `move_base` as goals.
 
-    Parameters, with the original's names and defaults: `ExploreSettings`. A frontier's cost is its distance by
-    potential_scale less its size by gain_scale; one that the robot cannot reach, or makes no progress towards for
-    progress_timeout, is left alone. `~frontiers` shows them with visualize. It ends in silence when there are none.
+    Parameters, with the original's names and defaults: `ExploreSettings`. A frontier's cost is potential_scale times
+    its distance, minus gain_scale times its size. A frontier that move_base cannot reach, or toward which it makes no
+    progress for progress_timeout, is given up. With visualize, `~frontiers` shows the frontiers. Without frontiers
+    the node stops sending goals.
     """
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
@@ -130,7 +131,7 @@ class Explore:
             if self._has_progress(frontier):
                 self._send(frontier.centroid)
                 return True
-            self._node.log.info("no progress towards a frontier; it is left alone")
+            self._node.log.info("no progress toward a frontier; it is given up")
             self._refused.append(frontier.centroid)
         return False
 
@@ -159,7 +160,7 @@ class Explore:
         self._client.send({"target_pose": {"header": header, "pose": pose}}, lambda state: self._end(goal, state))
 
     def _end(self, goal: Point, state: int) -> None:
-        """Choose the next goal; one that move_base gave up is left alone."""
+        """Choose the next goal; the frontier of an aborted goal is given up."""
         if state == ABORTED:
             self._refused.append(goal)
         self._goal = None

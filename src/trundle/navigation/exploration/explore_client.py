@@ -12,7 +12,7 @@ from .frontier import Point, is_inside
 
 _PERIOD_S = 0.1
 _CLOSE_RATIO = 0.1
-"""Distance between the first corner and the last click that closes the polygon, by the mean length of its edges."""
+"""Distance from the first corner within which a click closes the polygon, per mean length of the polygon's edges."""
 _LINE_STRIP, _SPHERE_LIST, _DELETE = 4, 7, 2
 _MAX_CORNERS = 1000
 
@@ -20,7 +20,7 @@ _MAX_CORNERS = 1000
 class ExploreClient:
     """Makes a polygon of clicks on `/clicked_point`, and sends it to the action `explore_server`.
 
-    The click that is near the first closes the polygon; the next one is where the exploration begins.
+    A click near the first one closes the polygon; the click after it sets where the exploration begins.
     `exploration_polygon_marker` shows the polygon.
     """
 

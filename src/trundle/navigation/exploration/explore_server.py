@@ -29,10 +29,10 @@ _POLL_S = 0.1
 
 
 class ExploreServer:
-    """Drives to frontiers within a boundary: the action of the node's name, of type frontier_exploration/ExploreTask.
+    """Drives to frontiers within a boundary. The action is NODE_NAME, a frontier_exploration/ExploreTask.
 
-    Parameters, with the original's defaults: frequency 0 (each frontier to its end), goal_aliasing 0.1, and the
-    namespace explore_costmap with a BoundedExploreLayer. Services of that layer: get_next_frontier and
+    Parameters, with the original's defaults: frequency 0 (a new goal only when the last one ended), goal_aliasing
+    0.1, and the namespace explore_costmap with a BoundedExploreLayer. Services of that layer: get_next_frontier and
     update_boundary_polygon.
     """
 
@@ -40,7 +40,7 @@ class ExploreServer:
         del arguments, host
         self._node = node
         self._next: dict[str, Any] = {}
-        """Pose of the frontier that is driven to."""
+        """Goal pose at the present frontier."""
 
     async def run(self) -> int:
         """Serve until cancelled."""

@@ -20,11 +20,11 @@ class Frontier:
     points: NDArray[np.float64]
     """(n, 2) centers of its cells [m]."""
     distance_m: float
-    """From the robot to the nearest point, as the crow flies."""
+    """Straight distance from the robot to the nearest point [m]."""
     initial: Point
-    """The point that the robot reaches first."""
+    """The point with the shortest path from the robot."""
     middle: Point
-    """The nearest point as the crow flies."""
+    """The point with the shortest straight distance from the robot."""
     centroid: Point
 
     @property
@@ -34,12 +34,12 @@ class Frontier:
 
 
 def find_frontiers(costmap: Costmap, robot: Point, *, min_size_m: float = 0.0) -> list[Frontier]:
-    """Return the frontiers that the robot can reach; none if it is outside the costmap, or in no free space.
+    """Return the frontiers that the robot can reach; none if it is outside the costmap, or no free cell is near.
 
     Args:
         costmap: costs of costmap_2d.
         robot: place of the robot [m].
-        min_size_m: least number of cells, by the size of a cell [m].
+        min_size_m: minimum size: number of cells times the size of a cell [m].
     """
     start = costmap.cell(*robot)
     if start is None:

@@ -78,7 +78,7 @@ class ParticleFilter:
         """Draw all particles from a normal distribution; `covariance`: of x, y, yaw, nine numbers row by row."""
 
     def spread_over_map(self) -> None:
-        """Draw more than max_particles over the free cells; the first scan reduces them."""
+        """Draw particles over the free cells, more than max_particles; the first scan reduces their number."""
 
     def move(self, model: OdometryModel, start: PlanarPose, end: PlanarPose) -> None:
         """Move the particles as the odometry moved."""
@@ -96,7 +96,7 @@ class ParticleFilter:
         """Weigh the particles by a scan: ranges [m], bearings [rad] and the laser's place [m] on the robot."""
 
     def resample(self) -> None:
-        """Draw the particles anew by their weights."""
+        """Resample the particles by their weights."""
 
     def estimate(self) -> tuple[PlanarPose, tuple[float, ...]]:
         """Return the mean of the heaviest cluster, and the covariance of all particles (nine numbers)."""

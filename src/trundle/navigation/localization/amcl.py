@@ -54,9 +54,9 @@ class Amcl:
         self._arguments = arguments
         self._filter: _localization.ParticleFilter | None = None
         self._initial: tuple[PlanarPose, tuple[float, ...], int] | None = None
-        """Pose, covariance of x, y, yaw, and stamp [ns] of an initial pose that is not applied yet."""
+        """An initial pose that is not applied yet: pose, covariance of x, y, yaw, stamp [ns]."""
         self._odom_from_base: PlanarPose | None = None
-        """Odometry of the particles; None: they were spread since the last scan."""
+        """Odometry at the particles' last move; None: the particles were spread after the last scan."""
         self._map_from_odom: Pose | None = None
         self._updates = 0
         self._is_forced = False
@@ -175,7 +175,7 @@ class Amcl:
     def _on_initial_pose(self, message: "geometry_msgs.PoseWithCovarianceStamped") -> None:
         frame = message.header.frame_id.lstrip("/")
         if not frame:
-            self._node.log.warn("the initial pose has an empty frame_id; supply one")
+            self._node.log.warn("the initial pose has an empty frame_id; set it")
         elif frame != self._settings.global_frame_id:
             self._node.log.warn(
                 f"an initial pose in frame {frame!r} is ignored; it must be in {self._settings.global_frame_id!r}"
@@ -215,7 +215,7 @@ class Amcl:
                     self._settings.odom_frame_id, self._settings.base_frame_id, stamp_ns
                 ).pose
             except TransformError:
-                pass  # a stamp of another clock, or before the odometry began
+                pass  # the stamp is of another clock, or before the first odometry
             else:
                 map_from_base = map_from_base @ from_planar(*planar(then)).inverse() @ from_planar(*odom_from_base)
         particles.spread(planar(map_from_base), covariance)

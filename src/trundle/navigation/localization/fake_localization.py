@@ -43,7 +43,7 @@ class FakeLocalization:
         self._clouds = node.advertise("particlecloud", "geometry_msgs/PoseArray", latch=True, queue_size=1)
         self._broadcaster = TransformBroadcaster(node)
         self._filter = TransformFilter(node, self._base, self._publish, queue_size=_QUEUE)
-        # The truth's own frame is the simulator's: the odometry must be known at its stamp.
+        # The true pose is in the simulator's frame; the odometry is looked up at its stamp.
         node.subscribe(
             "base_pose_ground_truth",
             "nav_msgs/Odometry",

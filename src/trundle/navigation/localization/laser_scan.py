@@ -21,12 +21,12 @@ class Beams:
     """Ranges of a scan and their directions from the robot."""
 
     ranges: NDArray[np.float64]
-    """(n,) [m]; those of range_max_m and more hit nothing."""
+    """(n,) [m]; a range of range_max_m or more hit nothing."""
     bearings: NDArray[np.float64]
     """(n,) in the robot's frame [rad]."""
     range_max_m: float
     x: float
-    """[m], the laser on the robot."""
+    """Position of the laser on the robot [m]."""
     y: float
 
 
@@ -59,7 +59,7 @@ class ScanReader:
             self.fault = "its angles or ranges are not finite, or its maximum range is not positive"
             return None
         ranges = np.array(scan.ranges, dtype=np.float64)
-        ranges[ranges <= range_min_m] = range_max_m  # too near to be measured
+        ranges[ranges <= range_min_m] = range_max_m  # a range below the minimum means that nothing was measured
         first = _bearing(base_from_laser, scan.angle_min)
         second = _bearing(base_from_laser, scan.angle_min + scan.angle_increment)
         increment = math.remainder(second - first, math.tau)

@@ -50,7 +50,7 @@ class GridSlam:
         """`bearings` of a scan's beams [rad]; `pose` of the laser in the map at the first scan."""
 
     def process(self, odometry: PlanarPose, time_s: float, ranges: NDArray[np.float64]) -> bool:
-        """Move the particles; True if the scan was used, after enough motion or time.
+        """Move the particles; True if the scan was used: after enough motion or time since the last used one.
 
         Args:
             odometry: pose of the laser in the odometry's frame.
@@ -109,13 +109,13 @@ class HectorSlam:
     def update(
         self, start: PlanarPose, sensor: tuple[float, float], ends: NDArray[np.float64], *, is_known: bool = False
     ) -> bool:
-        """Match a scan, and enter it after enough motion; True if it was entered.
+        """Match a scan; after enough motion, add it to the map; True if it was added.
 
         Args:
-            start: pose where the search begins.
-            sensor: origin of the beams on the robot [m].
-            ends: (n, 2) of the beams on the robot [m].
-            is_known: True: the start is the pose.
+            start: first guess of the pose.
+            sensor: origin of the beams in the robot's frame [m].
+            ends: (n, 2) ends of the beams in the robot's frame [m].
+            is_known: True: `start` is the pose, and nothing is matched.
         """
 
     def cells(self) -> NDArray[np.int8]:
@@ -126,7 +126,7 @@ class HectorSlam:
         """Pose of the robot in the map."""
     @property
     def covariance(self) -> list[float]:
-        """Of the last match: xx, xy, yy, xt, yt, tt; hector's measure, not one of metres."""
+        """Covariance of the last match: xx, xy, yy, xt, yt, tt; in hector's scale, not in m² and rad²."""
     @property
     def score(self) -> float:
         """Mean probability of the cells at the ends of the last scan, 0 to 1."""

@@ -80,7 +80,7 @@ class SlamGmapping:
             self._is_pending.set()
 
     async def _process_scans(self) -> None:
-        """Process scan by scan beside the graph's thread; time of a simulation waits."""
+        """Process one scan after another in a worker thread; simulated time waits for it."""
         while True:
             await self._is_pending.wait()
             with self._node.loop.work.pending("the map"):
@@ -103,7 +103,7 @@ class SlamGmapping:
         if ranges.size != self._bearings.size:
             self._warnings.warn(f"a scan is skipped: it has {ranges.size} beams, the first had {self._bearings.size}")
             return
-        ranges[ranges < scan.range_min] = math.inf  # too near to be measured
+        ranges[ranges < scan.range_min] = math.inf  # a range below the minimum means that nothing was measured
         if not await asyncio.to_thread(slam.process, odometry, stamp_ns / NS_PER_S, ranges):
             return
         map_from_laser = from_planar(*slam.pose)
@@ -117,7 +117,7 @@ class SlamGmapping:
             await self._publish_map(slam)
 
     def _start(self, scan: "sensor_msgs.LaserScan", odom_from_laser: Pose) -> _mapping.GridSlam:
-        """Begin with the laser where the odometry says: the map's frame is the odometry's at first."""
+        """Begin with the laser at its pose in the odometry frame, which is the map's frame at first."""
         angles = scan.angle_min + scan.angle_increment * np.arange(len(scan.ranges), dtype=np.float64)
         is_upside_down = odom_from_laser.transform_vector((0.0, 0.0, 1.0))[2] < 0.0
         self._bearings: NDArray[np.float64] = -angles if is_upside_down else angles

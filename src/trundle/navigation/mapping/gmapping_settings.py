@@ -14,7 +14,7 @@ refuse_stale(_mapping)
 _RANGE_MARGIN_M = 0.01
 _MAX_CELLS = 400_000_000
 _PATCH, _MARGIN_M = 32, 10.0
-"""gmapping's patches of a map [cells], and how far a map grows beyond what was seen."""
+"""Size of gmapping's patches of a map [cells], and margin by which a map grows beyond the seen cells [m]."""
 _MAX_PARTICLES = 10_000
 
 
@@ -27,9 +27,9 @@ class MapFrame(NamedTuple):
     height: int
 
     def grown(self, seen: tuple[int, int, int, int], delta_m: float) -> "MapFrame":
-        """Return a frame that holds what was seen: first column and row, last column and row.
+        """Return the part of the map to publish around the seen cells: first column and row, last column and row.
 
-        As gmapping's, it grows by whole patches to 10 m beyond on the sides where it was exceeded.
+        As in gmapping, it grows by whole patches, to 10 m beyond the seen cells, on the sides where these exceed it.
         """
         margin = math.ceil(_MARGIN_M / delta_m)
         first_column, width = _grown(self.first_column, self.width, seen[0], seen[2], margin)
@@ -57,7 +57,7 @@ class GmappingSettings(Struct, frozen=True, kw_only=True):
     """Negative, as by default: transform_publish_period."""
     map_update_interval: float = 5.0
     maxRange: float = 0.0  # noqa: N815
-    """0: the laser's, less 0.01."""
+    """0: the laser's maximum range minus 0.01."""
     maxUrange: float = 0.0  # noqa: N815
     """0: maxRange."""
     minimumScore: float = 0.0  # noqa: N815
@@ -91,7 +91,7 @@ class GmappingSettings(Struct, frozen=True, kw_only=True):
 
     @property
     def frame(self) -> "MapFrame":
-        """The map before anything was seen: whole patches from xmin and ymin on, as gmapping's."""
+        """The map before the first scan: whole patches from xmin and ymin on, as in gmapping."""
         first_column, first_row = math.floor(self.xmin / self.delta + 0.5), math.floor(self.ymin / self.delta + 0.5)
         across, along = self.xmax - self.xmin, self.ymax - self.ymin
         width, height = (math.ceil(length / self.delta - 1e-6) // _PATCH * _PATCH for length in (across, along))

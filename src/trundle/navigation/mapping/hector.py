@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from trundle.ros.message_types import sensor_msgs
 
 _LOST_SCORE = 0.1
-"""Mean probability at the beams' ends below which a scan is not found in the map."""
+"""Mean probability of an obstacle at the beams' ends; below it, a scan counts as not matched."""
 
 
 class HectorMapping:
@@ -147,7 +147,7 @@ class HectorMapping:
         is_entered = await asyncio.to_thread(self._slam.update, start, (x, y), ends, is_known=is_known)
         self._is_changed |= is_entered
         if self._slam.score < _LOST_SCORE and not is_entered:
-            self._warnings.warn("a scan is not found in the map; did the robot turn too fast?")
+            self._warnings.warn("a scan does not match the map; did the robot turn too fast?")
         if not is_known:
             self._publish_pose(stamp_ns)
 
@@ -157,7 +157,7 @@ class HectorMapping:
         return self._scans.buffer.lookup_transform(self._base, scan.header.frame_id, stamp_ns).pose
 
     def _ends(self, scan: "sensor_msgs.LaserScan", base_from_laser: Pose) -> NDArray[np.float64]:
-        """Return the beams' ends on the robot that are used (n, 2) [m]."""
+        """Return the ends (n, 2) of the used beams in the robot's frame [m]."""
         settings = self._settings
         flat = beam_ends(scan)
         if self._clouds.has_subscribers:
@@ -178,7 +178,7 @@ class HectorMapping:
                 self._warnings.warn(f"the last pose is used: {error}")
         return self._slam.pose
 
-    # -- what comes of it
+    # -- results
 
     def _publish_pose(self, stamp_ns: int) -> None:
         map_from_base = from_planar(*self._slam.pose)
@@ -204,7 +204,7 @@ class HectorMapping:
             try:
                 odom_from_base = self._scans.buffer.lookup_transform(self._odom, self._base, stamp_ns).pose
             except TransformError as error:
-                self._warnings.warn(f"the odometry is taken to stand still: {error}")
+                self._warnings.warn(f"the odometry is assumed to be at rest: {error}")
         self._send(self._odom, map_from_base @ odom_from_base.inverse(), stamp_ns)
 
     def _send(self, child: str, pose: Pose, stamp_ns: int) -> None:

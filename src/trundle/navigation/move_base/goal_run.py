@@ -16,7 +16,7 @@ from .recovery import Drive, RecoveryBehavior
 
 
 class RunSettings(Protocol):
-    """Parameters of a run; they may change meanwhile."""
+    """Parameters of a run; dynamic_reconfigure may change them during it."""
 
     planner_frequency: float
     controller_frequency: float
@@ -67,8 +67,8 @@ class GoalRun:
             node: node that logs.
             settings: parameters.
             goal: in the global costmap's frame.
-            global_costmap: where plans are made.
-            local_costmap: where the robot is controlled.
+            global_costmap: costmap of the global planner.
+            local_costmap: costmap of the local planner.
             global_planner: makes plans.
             local_planner: follows them.
             behaviors: recovery behaviors, in the order in which they are tried.
@@ -160,7 +160,7 @@ class GoalRun:
         return self._state is State.CONTROLLING and self._seconds_since(self._planned_ns) >= period_s
 
     def _begin_plan(self, pose: Pose2D) -> None:
-        """Plan beside the control cycles; simulated time waits, so that the same cycle takes the plan in every run."""
+        """Plan beside the control cycles; simulated time waits, so that every run gets the plan at the same cycle."""
         work = self._node.loop.work
         planning = work.start("a plan")
         self._planned_ns = self._node.clock.now_ns()
@@ -168,7 +168,7 @@ class GoalRun:
         self._planning.add_done_callback(lambda _: work.finish(planning))
 
     def _take(self, plan: Plan | None) -> None:
-        """Follow a plan; without one, keep the last one, or in the end recover."""
+        """Follow a new plan; without one, keep the last, and recover after planner_patience or max_planning_retries."""
         self._planning = None
         if plan is not None:
             self._valid_plan_ns, self._retries = self._planned_ns, 0

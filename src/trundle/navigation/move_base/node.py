@@ -1,4 +1,4 @@
-"""The node: topics, services, the action, and the goal that is driven to."""
+"""move_base's node: topics, services, the action, the present goal."""
 
 import asyncio
 import math
@@ -58,7 +58,7 @@ class MoveBase:
     """Drives to the goals of the action `move_base`, whatever the node's name, and of `move_base_simple/goal`.
 
     Parameters, with the original's defaults: `MoveBaseSettings`, recovery_behaviors, and the namespaces
-    global_costmap, local_costmap, the planners' and the behaviors'. Services: `~make_plan`, `~clear_costmaps`.
+    global_costmap, local_costmap, and those of the planners and behaviors. Services: `~make_plan`, `~clear_costmaps`.
     """
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
@@ -185,7 +185,7 @@ class MoveBase:
         return Pose2D(moved.position[0], moved.position[1], moved.rpy[2])
 
     async def _on_make_plan(self, request: "nav_msgs.GetPlanRequest") -> dict[str, Any]:
-        """Plan without driving; to the nearest place within the tolerance, if the goal cannot be reached."""
+        """Plan without driving; if the goal cannot be reached, plan to the nearest place within the tolerance."""
         node = self._node
         if self._server.active:
             node.log.error("move_base must be in an inactive state to make a plan for an external user")
@@ -217,7 +217,7 @@ def _pose_2d(stamped: "geometry_msgs.PoseStamped") -> Pose2D:
 
 
 def _is_quaternion_valid(q: "geometry_msgs.Quaternion") -> bool:
-    """True for a rotation that keeps z upright, as move_base demands of goals."""
+    """True for a rotation about z alone, which move_base requires of goals."""
     norm = math.hypot(q.w, q.x, q.y, q.z)
     if not math.isfinite(norm) or norm < 1e-3:
         return False

@@ -1,4 +1,4 @@
-"""Recovery behaviors: what move_base does when it finds no plan or no velocity."""
+"""Recovery behaviors, which move_base runs when it finds no plan or no velocity."""
 
 import math
 from collections.abc import Callable
@@ -139,7 +139,8 @@ class MoveSlowAndClear:
     """Forgets the obstacles in a square around the robot, and limits its speed until it has moved on.
 
     Parameters, with the original's defaults: clearing_distance 0.5, limited_distance 0.3, limited_trans_speed 0.25,
-    limited_rot_speed 0.45. Limits are those of the local planner, whatever max_trans_param_name and max_rot_param_name.
+    limited_rot_speed 0.45. It changes the local planner's limits; max_trans_param_name and max_rot_param_name are not
+    read.
     """
 
     def __init__(self, name: str, settings: RosParameters, surroundings: Surroundings) -> None:
@@ -149,7 +150,7 @@ class MoveSlowAndClear:
         self._distance_m = settings.number("limited_distance", 0.3)
         self._limits = settings.number("limited_trans_speed", 0.25), settings.number("limited_rot_speed", 0.45)
         self._begun: tuple[float, float, float] | None = None
-        """Where the speed was limited last; None: it is not limited."""
+        """Position where the limit began; None: the speed is not limited."""
 
     async def run(self) -> None:
         """See `RecoveryBehavior`."""

@@ -1,4 +1,4 @@
-"""Planners of ROS' navigation: of ways through a costmap, and of velocities along them."""
+"""Planners of ROS' navigation: global ones find paths through a costmap, local ones choose velocities along them."""
 
 import lazy_loader
 

@@ -13,7 +13,7 @@ from .interfaces import Plan, Pose2D
 
 
 class CarrotPlanner:
-    """Plans a straight way to the goal, or to the last place before it where the footprint touches nothing.
+    """Plans a straight path to the goal, or to the last pose before the goal where the footprint touches nothing.
 
     Parameters, with the original's defaults: step_size (the costmap's resolution), min_dist_from_robot 0.1.
     """

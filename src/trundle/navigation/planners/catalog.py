@@ -43,7 +43,7 @@ def find_local_planner(node: Node, name: str, root: RosParameters) -> tuple[Any,
         ParamError: there is none of that name.
     """
     space = re.split("/|::", name)[-1]
-    if space == "LocalPlannerAdapter":  # nav_core_adapter's, which loads another one
+    if space == "LocalPlannerAdapter":  # nav_core_adapter's class loads the planner that a parameter names
         name = root.section(space).text("planner_name", "DWBLocalPlanner")
         space = re.split("/|::", name)[-1]
     section = root.section(space)

@@ -73,16 +73,16 @@ _OLD_NAMES = {
     "acc_lim_th": "acc_lim_theta",
     "rot_stopped_vel": "theta_stopped_vel",
 }
-"""Names before Melodic."""
+"""Name before Melodic → name since."""
 
 
 class DWAPlannerROS(Follower):
     """Samples reachable velocities, simulates each, and commands the one of the best score.
 
-    Parameters are the original's (`DwaSettings`), also by their names before Melodic, with `controller_frequency`,
+    Parameters are the original's (`DwaSettings`), their names before Melodic, `controller_frequency`,
     `sum_scores` and `cheat_factor`, and `min_turning_radius` [m] for a car, whose direction at the goal is free. Unlike
-    the original's, trajectories accelerate toward any velocity, and a robot turns on the spot before it sets out on a
-    way that begins beside or behind it.
+    in the original, trajectories accelerate toward any velocity, and a robot turns on the spot before it follows a
+    path that begins beside or behind it.
     """
 
     def __init__(
@@ -196,12 +196,12 @@ class DWAPlannerROS(Follower):
         return np.where(is_valid, scores, math.inf)
 
     def _samples(self) -> NDArray[np.float64]:
-        """Return velocities (n, 3) to approach: densely those within reach, coarsely all others.
+        """Return velocities (n, 3) to approach: a dense grid of the reachable ones, and a coarse one of all.
 
-        Within reach is what a period can change, or without `use_dwa` the whole time.
+        Reachable means within one control period, or without `use_dwa` within the simulated time.
 
-        The original samples only the former and keeps each for the whole time, so that a robot that turns fast cannot
-        see how it would slow down.
+        The original samples only reachable velocities and holds each for the whole time, so that no trajectory of a
+        robot that turns fast slows down.
         """
         settings = self._settings
         low = np.array([settings.min_vel_x, settings.min_vel_y, -settings.max_vel_theta])
@@ -227,7 +227,7 @@ class DWAPlannerROS(Follower):
         return np.array([settings.acc_lim_x, settings.acc_lim_y, settings.acc_lim_theta])
 
     def _toward(self, target: Velocity) -> Velocity:
-        """Return the velocity after one period toward a target; a turn on the spot has at least its least speed."""
+        """Return the velocity one period later, toward a target; a turn on the spot has at least min_vel_theta."""
         step = (self._accelerations * self.period_s).tolist()
         x, y, turn = (approach(*args) for args in zip(self.odom.velocity, target, step, strict=True))
         least = self._settings.min_vel_theta
@@ -240,7 +240,7 @@ class DWAPlannerROS(Follower):
 
 
 def axis_samples(low: float, high: float, count: int) -> NDArray[np.float64]:
-    """Return values from low to high, with 0 added where they pass it."""
+    """Return values from low to high, and 0 if it lies between."""
     if high <= low:
         return np.array([high])
     values = np.linspace(low, high, max(count, 2))

@@ -14,7 +14,7 @@ from .interfaces import Plan, Pose2D
 _PRUNED_M = 1.0
 """Length of the plan behind the robot that is kept."""
 _SEARCHED_M = 2.0
-"""Length of the plan ahead in which the robot's place on it is looked for, so that loops are followed in order."""
+"""Length of the plan ahead in which the robot's place on the plan is searched, so that it does not skip loops."""
 
 
 class FollowedPlan:
@@ -70,13 +70,13 @@ class FollowedPlan:
 
 
 def lengths_along(poses: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the length of a way (n, 3) up to each of its poses [m]."""
+    """Return the length of a path (n, 3) up to each of its poses [m]."""
     steps = np.diff(poses[:, :2], axis=0, prepend=poses[:1, :2])
     return np.cumsum(np.hypot(steps[:, 0], steps[:, 1]))
 
 
 def point_ahead(plan: NDArray[np.float64], distance_m: float) -> Pose2D:
-    """Return the pose of a plan at a distance along it; its end if it is shorter."""
+    """Return the pose of a plan at a distance along it; the last pose if the plan is shorter."""
     index = int(np.searchsorted(lengths_along(plan), distance_m))
     return Pose2D(*plan[min(index, len(plan) - 1)].tolist())
 
@@ -84,7 +84,7 @@ def point_ahead(plan: NDArray[np.float64], distance_m: float) -> Pose2D:
 def distance_fields(
     grid: Costmap, plan: NDArray[np.float64], front: tuple[float, float]
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
-    """Return the distances around obstacles, in cells, to the plan, to its last point on the map, and to `front`."""
+    """Return each cell's distances around obstacles [cells]: to the plan, to its last point on the map, to `front`."""
     cells = np.floor(grid.in_cells(plan[:, :2])).astype(int)
     is_inside = ((cells >= 0) & (cells < np.array([grid.width, grid.height]))).all(axis=1)
     inside = [(int(x), int(y)) for x, y in np.unique(cells[is_inside], axis=0).tolist()]

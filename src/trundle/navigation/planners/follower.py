@@ -1,4 +1,4 @@
-"""What local planners share: the plan's part near the robot, the end of the way, turns on the spot, topics."""
+"""Base of local planners: the plan's part near the robot, the end of the plan, turns on the spot, topics."""
 
 import math
 from abc import ABC, abstractmethod
@@ -20,14 +20,14 @@ from .oscillation import OscillationFlags
 from .path_message import path_message
 
 _TURN_FIRST, _TURN_ENOUGH = math.radians(60.0), math.radians(15.0)
-"""Angle to the way from which on the robot turns on the spot, and that at which it sets out."""
+"""Angles to the path: above the first the robot turns on the spot, below the second it drives on."""
 _TURN_LOOKAHEAD_M = 0.3
 _SLOW_TURN = 0.3
-"""Turning speed at which it sets out [rad/s]."""
+"""Turning speed below which the robot drives on after a turn [rad/s]."""
 
 
 class Follower(ABC):
-    """A local planner; what is left to it is how it chooses a velocity along the way."""
+    """A local planner; subclasses choose the velocity along the path."""
 
     def __init__(
         self,
@@ -42,12 +42,12 @@ class Follower(ABC):
         stopped_speed: float,
         stopped_turn: float,
     ) -> None:
-        """Take what it works with.
+        """Read `controller_frequency`, and advertise the plans.
 
         Args:
             node: node that publishes.
-            name: namespace of its topics below the node's.
-            parameters: its own, then those that `controller_frequency` is searched in, too.
+            name: namespace of the planner's topics below the node's.
+            parameters: the planner's own, then others; `controller_frequency` is the first one found.
             limits: tolerances and accelerations.
             costmap: local costmap.
             buffer: transforms.
@@ -60,7 +60,7 @@ class Follower(ABC):
         self.odom = odom
         space = next((space for space in parameters if "controller_frequency" in space), parameters[0])
         self.period_s = 1.0 / space.number("controller_frequency", 20.0, above=0.0)
-        """Time until the next command."""
+        """Time until the next command [s]."""
         self.oscillation = OscillationFlags()
         self._limits = limits
         self._plan = FollowedPlan(node, costmap, buffer)
@@ -81,17 +81,17 @@ class Follower(ABC):
 
     @abstractmethod
     def rollout_settings(self, time_s: float) -> _grids.RolloutSettings:
-        """Return how trajectories of a duration are simulated."""
+        """Return the settings to simulate trajectories of a duration."""
 
     @abstractmethod
     def best(self, pose: Pose2D, plan: NDArray[np.float64]) -> Velocity | None:
-        """Return the best velocity along a way (n, 3) in the local frame; None if every one collides."""
+        """Return the best velocity along a path (n, 3) in the local frame; None if all collide."""
 
     def horizon_s(self, pose: Pose2D, plan: NDArray[np.float64], speed: float, time_s: float) -> float:
-        """Return the time to simulate: at most `time_s`, and no longer than to the way's end at a speed [m/s].
+        """Return the time to simulate: at most `time_s`, and no longer than the path takes at a speed [m/s].
 
-        Otherwise velocities whose trajectories end at the goal only after the whole time would be best, and the robot
-        would creep toward it.
+        Otherwise the best trajectory would be the one that ends at the goal after exactly `time_s`, and the robot
+        would creep toward the goal.
         """
         distance = math.hypot(plan[-1, 0] - pose.x, plan[-1, 1] - pose.y)
         return min(time_s, max(distance / max(speed, 1e-3), 2.0 * self.period_s))
@@ -159,7 +159,7 @@ class Follower(ABC):
         )
 
     def _turn_first(self, pose: Pose2D, plan: NDArray[np.float64]) -> Velocity | None:
-        """Return a turn on the spot toward a way that begins beside or behind the robot; None: drive."""
+        """Return a turn on the spot toward a path that begins beside or behind the robot; None: drive."""
         ahead = point_ahead(plan, _TURN_LOOKAHEAD_M)
         if math.hypot(ahead.x - pose.x, ahead.y - pose.y) <= self._limits.xy_goal_tolerance:
             self._is_turning = False

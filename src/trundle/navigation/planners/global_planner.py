@@ -1,4 +1,4 @@
-"""global_planner/GlobalPlanner: navfn's successor, with costs of its own."""
+"""global_planner/GlobalPlanner: the path of least cost, with other costs than navfn's."""
 
 import msgspec
 import numpy as np

@@ -1,4 +1,4 @@
-"""The end of the way: stop, and turn to the goal's direction; base_local_planner's LatchedStopRotateController."""
+"""The end of the plan: stop, and turn to the goal's direction; base_local_planner's LatchedStopRotateController."""
 
 import math
 from collections.abc import Callable
@@ -11,7 +11,7 @@ from .motion import angle_between, approach, turning_speed
 
 
 class StopLimits(Protocol):
-    """Parameters of the end of the way."""
+    """Parameters of the stop at the goal."""
 
     xy_goal_tolerance: float
     yaw_goal_tolerance: float
@@ -50,7 +50,7 @@ class GoalStop:
             self._is_latched = False
 
     def is_at_position(self, pose: Pose2D, goal: Pose2D) -> bool:
-        """True within the tolerance of the goal's position, or with a latch once it was."""
+        """True within the tolerance of the goal's position; with a latch, from the first time on."""
         is_near = math.hypot(goal.x - pose.x, goal.y - pose.y) <= self._limits.xy_goal_tolerance
         if is_near and self._limits.latch_xy_goal_tolerance:
             self._is_latched = True

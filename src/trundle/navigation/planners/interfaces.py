@@ -1,4 +1,4 @@
-"""What move_base asks of planners."""
+"""Interfaces of planners for move_base."""
 
 from typing import NamedTuple, Protocol
 
@@ -18,7 +18,7 @@ class Pose2D(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """A way of poses in one frame."""
+    """A path: poses in one frame."""
 
     frame: str
     poses: NDArray[float64]
@@ -29,12 +29,12 @@ class GlobalPlanner(Protocol):
     """nav_core::BaseGlobalPlanner."""
 
     async def make_plan(self, start: Pose2D, goal: Pose2D, tolerance: float | None = None) -> Plan | None:
-        """Return a way in the global costmap's frame; None if there is none.
+        """Return a path in the global costmap's frame; None if there is none.
 
         Args:
             start: pose of the robot.
-            goal: its last pose.
-            tolerance: greatest distance of the way's end from the goal [m]; None: the planner's own.
+            goal: last pose of the path.
+            tolerance: greatest distance of the path's end from the goal [m]; None: the planner's own.
         """
         ...
 
@@ -54,13 +54,13 @@ class LocalPlanner(Protocol):
         ...
 
     def set_plan(self, plan: Plan) -> None:
-        """Follow a way from now on."""
+        """Follow a path from now on."""
         ...
 
     def velocity(self) -> tuple[float, float, float] | None:
-        """Return the velocity to command now, x, y [m/s] and yaw [rad/s] of the robot; None without a valid one."""
+        """Return the velocity to command, x, y [m/s] and yaw [rad/s] in the robot's frame; None if none is valid."""
         ...
 
     def is_goal_reached(self) -> bool:
-        """True if the robot stands at the way's end."""
+        """True if the robot stands at the path's end."""
         ...

@@ -1,4 +1,4 @@
-"""The robot's motion as its odometry says, and limits of its changes."""
+"""The robot's velocity from its odometry, and limited changes of it."""
 
 import math
 from typing import TYPE_CHECKING

@@ -1,4 +1,4 @@
-"""navfn/NavfnROS: the way of least cost through a costmap."""
+"""navfn/NavfnROS: the path of least cost through a costmap."""
 
 import msgspec
 import numpy as np

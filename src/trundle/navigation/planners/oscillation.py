@@ -1,4 +1,4 @@
-"""base_local_planner's OscillationCostFunction: no to and fro."""
+"""base_local_planner's OscillationCostFunction: forbids motion to and fro."""
 
 import math
 
@@ -11,7 +11,7 @@ _Velocity = tuple[float, float, float]
 
 
 class OscillationFlags:
-    """Once the robot changed its direction, forbids to change it back until it has moved on."""
+    """Forbids to reverse a change of direction until the robot has moved on."""
 
     def __init__(self) -> None:
         self.reset()
@@ -33,7 +33,7 @@ class OscillationFlags:
         return np.ascontiguousarray(samples[is_allowed])
 
     def note(self, pose: Pose2D, velocity: _Velocity, distance_m: float, angle: float) -> None:
-        """Take the command; sideways motion and turns count only where the robot does not drive forwards."""
+        """Note a command; sideways motion and turns count only if the robot does not drive forwards."""
         if self._since is not None and (
             math.hypot(pose.x - self._since.x, pose.y - self._since.y) > distance_m
             or abs(math.remainder(pose.yaw - self._since.yaw, 2.0 * math.pi)) > angle

@@ -1,4 +1,4 @@
-"""A way of least cost down a potential, as navfn and global_planner make it."""
+"""A path of least cost down a potential, as in navfn and global_planner."""
 
 import asyncio
 import math
@@ -19,10 +19,10 @@ if TYPE_CHECKING:
 
 
 class PotentialPlanner:
-    """Plans by a front from the robot that spreads over all cells, and the way that descends from the goal to it.
+    """Plans by a wave front that spreads from the robot, and the path that descends from the goal to the robot.
 
-    The front solves the eikonal equation, so that ways are straight where costs are equal. `~NAME/make_plan` plans
-    without driving; `~NAME/plan` has each plan.
+    The front solves the eikonal equation, so that paths are straight where costs are equal. `~NAME/make_plan` plans
+    without driving; each plan is published on `~NAME/plan`.
     """
 
     def __init__(
@@ -55,7 +55,7 @@ class PotentialPlanner:
         return {"plan": path_message(plan or empty, self._node.clock.now_ns())}
 
     async def make_plan(self, start: Pose2D, goal: Pose2D, tolerance: float | None = None) -> Plan | None:
-        """See `GlobalPlanner`; plans in a copy of the costs, beside the graph's thread."""
+        """See `GlobalPlanner`; plans with a copy of the costs, in a worker thread."""
         grid = self._costmap.costmap
         first, last = grid.cell(start.x, start.y), grid.cell(goal.x, goal.y)
         if first is None:
@@ -84,7 +84,7 @@ class PotentialPlanner:
     ) -> Plan | None:
         """Plan from the cell `first` to `last`, or to the nearest within reach [m]."""
         costs = self._costs(grid, first)
-        potential = _grids.wave_front(costs, [first], stop=last)  # else it has reached all that it can
+        potential = _grids.wave_front(costs, [first], stop=last)  # no `last`: the front has reached every cell it can
         end = nearest_reached(potential, last, reach / grid.resolution_m)
         way = _grids.descend(potential, end, first) if end is not None else np.empty((0, 2))
         if end is None or not len(way):
@@ -95,7 +95,7 @@ class PotentialPlanner:
         """Return the cost of crossing each cell; the border is impassable, the robot's own cell is not.
 
         Inscribed cells within the robot's radius can be crossed at the highest cost, so that a robot that came too
-        near to an obstacle finds a way out.
+        near to an obstacle finds a path away from it.
         """
         costs = self._crossing[grid.cells]
         reach = math.ceil(self._costmap.inscribed_m / grid.resolution_m)
@@ -109,7 +109,7 @@ class PotentialPlanner:
     def _poses(
         self, grid: Costmap, way: NDArray[np.float64], start: Pose2D, goal: Pose2D, *, is_exact: bool
     ) -> NDArray[np.float64]:
-        """Return the way from the robot to the goal in metres, headed along itself."""
+        """Return the poses from the robot to the goal [m]; each heads along the path."""
         points = (way + 0.5) * grid.resolution_m + np.array(grid.origin)
         points[0] = start.x, start.y
         if is_exact:

@@ -1,4 +1,4 @@
-"""Planners of other packages, answered by DWAPlannerROS and NavfnROS with the limits that their parameters set."""
+"""Planners of other packages, replaced by DWAPlannerROS and NavfnROS with the limits from their parameters."""
 
 from collections.abc import Callable, Mapping
 
@@ -35,7 +35,7 @@ def _like_dwa(names: Mapping[str, str]) -> Callable[[RosParameters], RosParamete
 
 
 def _from_teb(section: RosParameters) -> RosParameters:
-    """Return DWA's parameters from TEB's; only a car drives backwards, as it cannot turn on the spot."""
+    """Return DWA's parameters from TEB's; only a car-like robot, which cannot turn on the spot, drives backwards."""
     defaults = {**_TEB, **_TEB_TOLERANCES, "sim_time": 2.0}
     if section.number("min_turning_radius", 0.0) > 0.0:
         defaults["min_vel_x"] = -section.number("max_vel_x_backwards", 0.2)
@@ -45,7 +45,7 @@ def _from_teb(section: RosParameters) -> RosParameters:
 
 
 def _on_wheels(section: RosParameters, defaults: dict[str, float]) -> RosParameters:
-    """Return parameters with defaults: no sideways motion, and as fast as straight ahead in all directions."""
+    """Return parameters with defaults: no sideways motion, and the speed limit ahead as the limit in all directions."""
     straight = section.number("max_vel_x", defaults.get("max_vel_x", 0.55))
     sideways = section.number("max_vel_y", 0.0)
     still = {"max_vel_y": 0.0, "min_vel_y": 0.0, "vy_samples": 0} if sideways == 0.0 else {}

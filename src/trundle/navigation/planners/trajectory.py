@@ -71,15 +71,15 @@ _OLD_NAMES = {
 }
 _STOPPED = 0.01
 _SPOT_PENALTY, _ESCAPE_PENALTY = 1e6, 1e9
-"""Sort turns on the spot after every way forwards, as standing always costs least; then backwards."""
+"""Added to turns on the spot, which would always cost least, and, larger, to motion backwards."""
 
 
 class TrajectoryPlannerROS(Follower):
-    """Samples velocities that are reached within the simulated time, and commands the one of the least cost.
+    """Samples reachable velocities, simulates each, and commands the one of the least cost.
 
     Parameters are the original's (`TrajectorySettings`); pdist_scale, gdist_scale, max_rotational_vel,
     min_in_place_rotational_vel and acc_lim_th are read, too. Unlike the original, a robot turns on the spot before it
-    sets out on a way that begins beside or behind it.
+    follows a path that begins beside or behind it.
     """
 
     def __init__(
@@ -161,9 +161,9 @@ class TrajectoryPlannerROS(Follower):
         return x, y, turn
 
     def _way_costs(self, plan: NDArray[np.float64], lengths_m: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the highest cost under the footprint on the first part of the way, for each of its lengths.
+        """Return the highest cost under the footprint on the first part of the plan, for each of the lengths.
 
-        Only what a trajectory costs beyond it counts: else standing before a door would cost less than to pass it.
+        A trajectory's cost counts only above it; otherwise standing before a door would cost less than passing it.
         """
         grid = self.costmap.costmap
         along = lengths_along(plan)
@@ -203,7 +203,7 @@ class TrajectoryPlannerROS(Follower):
         return np.where(is_valid, costs, math.inf)
 
     def _end(self, pose: Pose2D, sample: NDArray[np.float64]) -> tuple[float, float]:
-        """Return where a sample's trajectory ends [m]."""
+        """Return the end of a sample's trajectory [m]."""
         x, y, turn = sample.tolist()
         way = _grids.roll_out(self.rollout_settings(self._settings.sim_time), pose, self.odom.velocity, (x, y, turn))
         return (way[-1][0], way[-1][1]) if way else (pose.x, pose.y)

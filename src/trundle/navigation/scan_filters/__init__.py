@@ -1,4 +1,4 @@
-"""Scans made of scans: laser_filters, ira_laser_tools."""
+"""Filters and mergers of scans: laser_filters, ira_laser_tools."""
 
 import lazy_loader
 

@@ -20,7 +20,7 @@ _MAX_OBSERVATIONS = 1000
 
 
 def _median(observations: _Array) -> _Array:
-    """Return the median of each column, of an even number the lower one, as the original's."""
+    """Return the median of each column; of an even number of rows, the lower median, as in the original."""
     middle = (len(observations) - 1) // 2
     return np.partition(observations, middle, axis=0)[middle]
 
@@ -30,7 +30,7 @@ def _mean(observations: _Array) -> _Array:
 
 
 _KINDS: dict[str, _Reduce] = {"MedianFilterFloat": _median, "MeanFilterFloat": _mean}
-"""Filter of the package `filters` without MultiChannel → reduction of the last arrays to one."""
+"""Name of a filter of the package `filters`, without MultiChannel → its reduction."""
 
 
 class Window:
@@ -41,7 +41,7 @@ class Window:
         self._observations: deque[_Array] = deque(maxlen=count)
 
     def apply(self, values: _Array) -> _Array:
-        """Add an array and reduce; arrays of another length begin anew."""
+        """Add an array and reduce; an array of another length discards those before."""
         if self._observations and self._observations[0].size != values.size:
             self._observations.clear()
         self._observations.append(values)

@@ -1,4 +1,4 @@
-"""Filters that look at each beam for itself."""
+"""Filters that treat each beam alone."""
 
 from typing import Annotated
 
@@ -78,7 +78,7 @@ class BoundsSettings(Struct):
 
 
 class LaserScanAngularBoundsFilter(ScanFilter):
-    """Keeps the beams between two angles; the scan gets shorter."""
+    """Keeps the beams between two angles, and drops all others."""
 
     Settings = BoundsSettings
     required = ("lower_angle", "upper_angle")
@@ -148,9 +148,9 @@ class InterpolationSettings(Struct):
 
 
 class InterpolationFilter(ScanFilter):
-    """Fills ranges that are not measured with the mean of the next ones on both sides.
+    """Fills ranges that were not measured with the mean of the nearest measured ones on both sides.
 
-    At an end of the scan, the maximum range less 0.01 m is the neighbor, as the original's.
+    At an end of the scan, the maximum range minus 0.01 m counts as the neighbor, as in the original.
     """
 
     Settings = InterpolationSettings

@@ -60,7 +60,7 @@ class FilterChain:
             self.filters.append(kind(name, section.section("params"), node, buffer))
 
     def apply(self, scan: Scan) -> str:
-        """Filter a scan in place; returns the fault of the filter that could not, else an empty text."""
+        """Filter a scan in place; returns the fault of the filter that failed, or an empty text."""
         for item in self.filters:
             if not item.apply(scan):
                 return f"{item.name}: {item.fault}"

@@ -1,4 +1,4 @@
-"""What each filter of a chain has in common."""
+"""Base of the filters of a chain."""
 
 from typing import Any, ClassVar
 
@@ -34,10 +34,10 @@ class ScanFilter:
         """
         for required in self.required:
             if required not in parameters:
-                parameters.text(required)  # raises that it is not set
+                parameters.text(required)  # raises ParamError: the parameter is not set
         self.settings: Any = read_settings(self.Settings, parameters)
         self.fault = ""
-        """Why the last scan could not be filtered."""
+        """Reason why the last scan could not be filtered."""
         self.name = name
         self._buffer = buffer
         if self.is_reconfigurable:

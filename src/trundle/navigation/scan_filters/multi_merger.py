@@ -58,7 +58,7 @@ class LaserscanMultiMerger:
         del arguments, host
         self._node = node
         self._points: dict[str, NDArray[np.float64] | None] = {}
-        """Topic → points (n, 3) that are not merged yet."""
+        """Topic → its points (n, 3) that wait for those of the other topics."""
         self._held: dict[str, TransformFilter] = {}
 
     async def run(self) -> int:

@@ -1,4 +1,4 @@
-"""Filters that compare a beam with those beside it."""
+"""Filters that compare a beam with the beams beside it."""
 
 from typing import Annotated
 
@@ -15,7 +15,7 @@ from .scan import Scan
 _Count = Annotated[int, Meta(ge=0, le=100)]
 _Length = Annotated[float, Meta(ge=0.0, le=100.0)]
 _MAX_CELLS = 50_000_000
-"""Largest comparison of beams with their neighbors; a longer scan is refused."""
+"""Maximum number of comparisons between beams and neighbors; a scan that needs more is refused."""
 
 
 class ShadowsSettings(Struct):
@@ -31,7 +31,8 @@ class ShadowsSettings(Struct):
 class ScanShadowsFilter(ScanFilter):
     """Removes beams that graze an edge: the line to a neighbor makes a small angle with the beam.
 
-    Where a beam has such a neighbor within `window`, those of its `neighbors` that are farther away are removed.
+    If a beam has such a neighbor within `window`, those of the `neighbors` beams beside it that are farther away than
+    the beam are removed.
     """
 
     Settings = ShadowsSettings
@@ -74,7 +75,7 @@ class SpeckleSettings(Struct):
 
 
 class LaserScanSpeckleFilter(ScanFilter):
-    """Removes beams without enough neighbors, such as of dust."""
+    """Removes beams without enough neighbors, such as those that hit dust."""
 
     Settings = SpeckleSettings
 

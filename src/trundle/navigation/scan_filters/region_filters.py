@@ -1,4 +1,4 @@
-"""Filters that remove what is measured within a region of space, such as the robot itself."""
+"""Filters that remove beams that end in a region of space, such as the robot itself."""
 
 from typing import Annotated
 
@@ -113,7 +113,7 @@ class LaserScanPolygonFilter(_RegionFilter):
         return self._corners + np.sign(self._corners) * self.settings.polygon_padding
 
     def _is_inside(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Count the edges to the right of each point."""
+        """A point is inside with an odd number of edges to its right."""
         corners = self._padded()
         ends, x, y = np.roll(corners, 1, axis=0), points[:, 0], points[:, 1]
         is_inside = np.zeros(len(points), dtype=bool)

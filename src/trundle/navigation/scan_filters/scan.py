@@ -35,7 +35,7 @@ class Scan:
     ranges: NDArray[np.float32]
     """(n,) [m]"""
     intensities: NDArray[np.float32]
-    """(n,), or shorter where the laser measures none."""
+    """(n,); shorter if the laser measures no intensities."""
 
     @classmethod
     def read(cls, message: "sensor_msgs.LaserScan") -> Self:

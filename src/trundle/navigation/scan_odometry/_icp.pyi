@@ -20,7 +20,7 @@ class IcpOptions:
     max_angular: float
     """[rad]"""
     max_ratio: float
-    """Ratio of the correspondences that are used, at most."""
+    """Largest share of the correspondences that is used."""
     adaptive_order: float
     adaptive_multiple: float
     sigma: float

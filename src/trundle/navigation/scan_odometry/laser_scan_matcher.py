@@ -77,8 +77,8 @@ class LaserScanMatcher:
     """Publishes the transform of the robot, `pose2D` and other poses, from `scan`.
 
     Parameters, with the original's names and defaults: `MatcherSettings`, position_covariance and
-    orientation_covariance. The motion between scans is predicted from `imu/data` (its heading), `odom` or `vel`, as
-    use_imu, use_odom and use_vel say, where they are published; the match is by points and lines. Scans wait for the
+    orientation_covariance. use_imu, use_odom and use_vel predict the motion between scans from `imu/data` (the
+    heading), `odom` or `vel`, if these are published; the match is by points and lines. Scans wait for the
     transform of the laser; clouds are not read.
     """
 
@@ -86,9 +86,9 @@ class LaserScanMatcher:
         del arguments, host
         self._node = node
         self._odometry: tuple[Pose, Pose] | None = None
-        """Of the odometry: at the last scan, now."""
+        """Pose of the odometry at the last scan, and now."""
         self._heading: tuple[float, float] | None = None
-        """Of the imu [rad]: at the last scan, now."""
+        """Heading of the imu at the last scan, and now [rad]."""
         self._velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
         self._last_ns: int | None = None
 
@@ -152,7 +152,7 @@ class LaserScanMatcher:
             kind = "geometry_msgs/TwistStamped" if settings.stamped_vel else "geometry_msgs/Twist"
             node.subscribe("vel", kind, self._on_velocity, queue_size=1)
 
-    # -- what predicts the motion
+    # -- prediction of the motion
 
     def _on_imu(self, message: Any) -> None:
         q = message.orientation

@@ -39,7 +39,7 @@ class Rf2oLaserOdometry:
         self._last: tuple[int, Pose] | None = None
         """Stamp [ns] and pose of the last scan."""
         self._motion = (0.0, 0.0, 0.0)
-        """Of the robot, per second [m/s], [rad/s]."""
+        """Velocity of the robot [m/s], [rad/s]."""
 
     async def run(self) -> int:
         """Match until cancelled."""
@@ -86,7 +86,7 @@ class Rf2oLaserOdometry:
         if self._has_start:
             self._scans.add(scan)
         else:
-            self._warnings.warn("scans wait for the pose of init_pose_from_topic; empty, it begins at the origin")
+            self._warnings.warn("scans wait for a pose on init_pose_from_topic; set it empty to begin at the origin")
 
     async def _match(self, scan: "sensor_msgs.LaserScan") -> None:
         stamp_ns = to_nsec(scan.header.stamp)
@@ -100,7 +100,7 @@ class Rf2oLaserOdometry:
         dt = 0.0 if last is None else (stamp_ns - last[0]) / NS_PER_S
         predicted = from_planar(*(value * dt for value in self._motion))
         if not await asyncio.to_thread(self._tracker.add, points, base_from_laser, predicted):
-            self._warnings.warn("a scan matches nothing; the robot is taken to move on as before")
+            self._warnings.warn("a scan matches nothing; the robot's last velocity is used")
         pose = self._tracker.fixed_from_base
         if last is not None and dt > 0.0:
             x, y, yaw = planar(last[1].inverse() @ pose)

@@ -1,4 +1,4 @@
-"""Pose of a laser's robot, scan by scan: each is matched with a keyframe."""
+"""The robot's pose, scan by scan: each scan is matched with a keyframe."""
 
 import math
 
@@ -21,9 +21,9 @@ class ScanTracker:
         """Start at the origin.
 
         Args:
-            options: of the matches.
-            keyframe_linear: way after which a scan is the next keyframe [m]; 0: each scan.
-            keyframe_angular: turn after which it is [rad].
+            options: options of the matches.
+            keyframe_linear: distance after which a scan becomes the next keyframe [m]; 0: each scan.
+            keyframe_angular: turn after which a scan becomes the next keyframe [rad].
         """
         self._options = options
         self._keyframe_linear = keyframe_linear
@@ -32,7 +32,7 @@ class ScanTracker:
         self._fixed_from_keyframe = Pose()
         self.fixed_from_base = Pose()
         self.match: _icp.IcpMatch | None = None
-        """Of the last scan; None: it was the first."""
+        """Match of the last scan; None after the first."""
 
     def reset(self, fixed_from_base: Pose) -> None:
         """Go on at a pose, with the next scan as a keyframe."""
@@ -40,7 +40,7 @@ class ScanTracker:
         self.fixed_from_base = self._fixed_from_keyframe = fixed_from_base
 
     def add(self, points: NDArray[np.float64], base_from_laser: Pose, motion: Pose) -> bool:
-        """Match a scan; False: it matches nothing, and the predicted pose is kept as the next keyframe's.
+        """Match a scan; False: it matches nothing, and becomes the next keyframe at the predicted pose.
 
         Args:
             points: (n, 2) ends of the beams in the laser's frame, in their order [m].
@@ -76,7 +76,7 @@ class ScanTracker:
 
     @property
     def covariance(self) -> NDArray[np.float64]:
-        """(3, 3) of x, y and yaw in the fixed frame, of the last match with its keyframe."""
+        """Covariance (3, 3) of x, y and yaw of the last match with its keyframe, in the fixed frame."""
         if self.match is None:
             return np.zeros((3, 3))
         xx, xy, yy, xt, yt, tt = self.match.covariance
