@@ -1,4 +1,4 @@
-"""Queue of functions that other threads have called on the simulation's thread, between two strides."""
+"""Queue of functions from other threads; the simulation's thread calls them between two strides."""
 
 from collections import deque
 from collections.abc import Callable
@@ -12,7 +12,7 @@ class CallQueue:
     def __init__(self, loop: GraphLoop) -> None:
         self._loop = loop
         self._waiting: deque[tuple[Callable[[], object], WorkItem]] = deque()
-        """(function, its pending work)."""
+        """(function, its entry in the loop's pending work)."""
 
     def post(self, call: Callable[[], object]) -> None:
         """Queue a function; from any thread."""

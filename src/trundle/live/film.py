@@ -14,11 +14,11 @@ from trundle.sim.simulation import Simulation, Snapshot
 from trundle.spatial import NS_PER_S
 
 _QUEUED = 8
-"""Frames that wait to be encoded; a longer queue would take memory."""
+"""Maximum number of frames that wait for the encoder, which bounds the memory."""
 
 
 class Film:
-    """Video that gets a frame for each 25th of a second of simulation time; `close` ends the file."""
+    """Video of 25 frames per second of simulation time; `close` completes the file."""
 
     __module__ = "trundle"
 
@@ -27,7 +27,7 @@ class Film:
         if file.suffix.lower() not in VIDEO_SUFFIXES:
             raise UsageError(f"a video's file ends in {', '.join(VIDEO_SUFFIXES)}, not in {file.suffix!r}")
         self.file = file
-        """Path of the video; it is there after `close`."""
+        """Path of the video; the file is complete after `close`."""
         self._simulation, self._draw = simulation, draw
         self._frames: queue.Queue[Image.Image | None] = queue.Queue(_QUEUED)
         self._error: Exception | None = None

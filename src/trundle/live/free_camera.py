@@ -1,4 +1,4 @@
-"""Camera that stands anywhere in a world, without a sensor."""
+"""Camera at any pose in a world, without a sensor."""
 
 import math
 from typing import TYPE_CHECKING
@@ -23,7 +23,7 @@ _NEAR_M, _FAR_M = 0.01, 1e4
 
 
 class FreeCamera:
-    """Camera of one simulation; it follows spawned and deleted models."""
+    """Camera of one simulation; its pictures show spawned models, and no deleted ones."""
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
@@ -58,7 +58,7 @@ class FreeCamera:
 
 
 def looking_at(eye: "ArrayLike", target: "ArrayLike") -> Pose:
-    """Return the pose in the world of a camera, whose x axis is the view and z axis is up in the picture.
+    """Return a camera's pose in the world: x points along the view, z up in the picture.
 
     Raises:
         UsageError: a point is not 3 numbers, or both are the same.

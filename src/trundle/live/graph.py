@@ -12,12 +12,12 @@ from trundle.ros import Core, GraphLoop, MasterProxy, MasterUnreachableError, Po
 
 DEFAULT_PORT = 11311
 _MIN_FILES = 32
-"""File descriptors for a master with two nodes; with fewer, connections wait for ever."""
+"""File descriptors that a master with two nodes needs; with fewer, connections would wait forever."""
 _LOCAL = frozenset({"localhost", "127.0.0.1", "::1", "0.0.0.0"})
 
 
 class Graph:
-    """Loop of this process's nodes, URI of their master, and the master itself if it was started here."""
+    """Loop of this process's nodes, URI of their master, and the master itself if this process started it."""
 
     def __init__(self, loop: GraphLoop, master_uri: str, core: Core | None, host: str) -> None:
         self.loop = loop

@@ -23,7 +23,7 @@ if TYPE_CHECKING:  # a world without a graph, a timeline or plugins starts witho
 class LiveWorld:
     """One simulation, with the sensors, plugins, topics and nodes of its models.
 
-    They start and end with their model, whether the page, a service, a plugin or a program spawns and deletes it.
+    These parts start and end with their model, whoever spawns and deletes it: the page, a service, a plugin, a program.
     A live world belongs to the simulation's thread.
     """
 

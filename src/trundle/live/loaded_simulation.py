@@ -94,7 +94,7 @@ class LoadedSimulation(Simulation):
         return self._sensors.sensor(name)
 
     def range_sensor(self, name: str) -> "RangeSensor":
-        """Lidar or ray sensor by name, for readings with a different noise.
+        """Lidar or ray sensor by name, for readings with another noise.
 
         Raises:
             UsageError: none or several, or of another type; the message lists all names.
@@ -113,7 +113,7 @@ class LoadedSimulation(Simulation):
 
     @cached_property
     def live(self) -> "LiveWorld":
-        """Sensors, plugins and topics, which start and end with their models; made on first use."""
+        """Live world with the sensors, plugins and topics of the models; made on first use."""
         from .live_world import LiveWorld
 
         packages = Packages(self._environment, start=Path.cwd())
@@ -137,7 +137,7 @@ class LoadedSimulation(Simulation):
         """Add a model; everything else keeps its exact state.
 
         Args:
-            model: model built in code, or the description of one of a simulation, `ModelHandle.model`; at its pose.
+            model: model built in code, or the description of a simulated one, `ModelHandle.model`; added at its pose.
             allow_renaming: append _0, _1, … to a name that is taken, as Gazebo does.
 
         Raises:

@@ -7,11 +7,11 @@ from collections.abc import Callable
 from trundle.ros import GraphLoop, PendingWork, StepRecorder
 
 _STARTING_PASSES = 50
-"""Idle passes of the loop that count as settled while nodes start, when they do more between two calls."""
+"""Idle passes of the loop after which nodes that start count as settled; they may work between two calls."""
 _ANSWER_S = 10.0
-"""Silence [s] after which an answer counts as needing ROS time to pass, as of a service that sleeps."""
+"""Silence [s] after which a missing answer is assumed to need ROS time, as that of a service that sleeps."""
 _ANSWER_PASSES = 1000
-"""Minimum passes of the loop in that silence; a process stopped for a minute makes none."""
+"""Minimum passes of the loop in this silence; a suspended process makes none."""
 
 
 class Lockstep:
@@ -120,7 +120,7 @@ class Lockstep:
 
 
 class _Silence:
-    """Timer of a wait for answers only, none of which arrives; polled at each pass of the loop."""
+    """Timer of a wait in which only answers are missing and none arrives; polled at each pass of the loop."""
 
     def __init__(self, work: PendingWork) -> None:
         self._work = work

@@ -39,7 +39,7 @@ class ModelInterfaces:
         self._frames = frames
         self._endpoints: dict[ModelHandle, list[Endpoint]] = {}
         self._nodes: dict[ModelHandle | None, list[Node]] = {}
-        """Nodes of each model's plugins; None: of the world's plugins."""
+        """Nodes of each model's plugins; the key None: nodes of the world's plugins."""
 
     def node_maker(self, model: ModelHandle | None) -> Callable[[str], Node]:
         """Return a function that makes nodes for a model's plugins; None: for the world's plugins."""

@@ -1,4 +1,4 @@
-"""Notebooks: whether this process runs one, and which servers of this user may show a frame of a page."""
+"""Notebooks: whether this process runs one, and which Jupyter servers of this user may frame the page."""
 
 import json
 import os
@@ -43,7 +43,7 @@ def _is_origin(text: str) -> bool:
 
 
 def _runtime_folder() -> Path:
-    """Return the folder in which Jupyter's servers say where they listen (`jupyter --runtime-dir`)."""
+    """Return the folder in which Jupyter's servers write their addresses (`jupyter --runtime-dir`)."""
     if named := os.environ.get("JUPYTER_RUNTIME_DIR"):
         return Path(named)
     if data := os.environ.get("JUPYTER_DATA_DIR"):

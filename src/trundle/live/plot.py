@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 _SUFFIXES = (".svg", ".csv")
 _COLUMNS, _ROWS = 100, 20
-"""Size as text."""
+"""Size of the curves as text [characters]."""
 
 
 class Plot:

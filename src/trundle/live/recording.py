@@ -59,7 +59,7 @@ class Recording:
 
 
 class StateLogWriter:
-    """Hook that writes a state log of a world whose models stay the same."""
+    """Hook that writes a state log of a world without changes of its models."""
 
     def __init__(self, simulation: Simulation, file: Path, world: "World") -> None:
         """Write the present state.

@@ -22,11 +22,11 @@ if TYPE_CHECKING:
     from .run.ros_interface import RosInterface
 
 _STRIDE_WALL_NS = 20_000_000
-"""Stride between two exchanges with the page, in wall time [ns]."""
+"""Wall time between two exchanges with the page [ns]."""
 _LONGEST_STRIDE_NS = 1_000_000_000
-"""Longest stride, in simulation time [ns]."""
+"""Longest simulation time between two exchanges [ns]."""
 _PAUSED_S = 0.02
-"""Period at which a paused page is asked."""
+"""Period at which a paused page is polled [s]."""
 _HEIGHT_PX = 640
 
 
@@ -81,7 +81,7 @@ class View:
 
     @property
     def is_watched(self) -> bool:
-        """True while a browser draws it."""
+        """True while a browser draws the page."""
         return self._page is not None and self._page.is_watched
 
     @property
@@ -105,7 +105,7 @@ class View:
 
     @property
     def stride_ns(self) -> int:
-        """Longest time to simulate between two calls of `follow` [ns]; for the simulation only."""
+        """Longest time to simulate between two calls of `follow` [ns]; called by the simulation only."""
         speed = self.speed
         return STRIDE_FLAT_OUT_NS if speed is None else max(1, int(min(_STRIDE_WALL_NS * speed, _LONGEST_STRIDE_NS)))
 
@@ -118,7 +118,7 @@ class View:
         self.follow()
 
     def follow(self) -> None:
-        """Do as `sync`, if it is due; for the simulation only."""
+        """Act as `sync` if an exchange is due; called by the simulation only."""
         if self._is_exchanging or not self.is_open:
             return
         now_ns = time.monotonic_ns()
@@ -149,7 +149,7 @@ class View:
             self._pacer.restart()
 
     def _answer_between_cells(self) -> None:
-        """Answer the page whenever the event loop of a notebook is idle; a program without one calls `sync`."""
+        """Answer the page whenever a notebook's event loop is idle; a program without such a loop calls `sync`."""
         try:
             loop = asyncio.get_running_loop()
         except RuntimeError:

@@ -1,4 +1,4 @@
-"""Worlds to simulate, from any description."""
+"""Worlds to simulate, made from any description."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -28,7 +28,7 @@ class LoadedWorld:
     flat: model.World
     """World whose nested models are merged into the outer ones, as physics needs it."""
     nested: model.World
-    """The same world, nested as in the file."""
+    """World with nested models, as in the file."""
     robot: "Robot | None"
     urdf: str | None
     """Expanded XML, for the parameter /robot_description."""
@@ -71,7 +71,7 @@ def load_built(built: "Model | World", packages: Packages, report: Diagnostics, 
 
 
 def described_model(built: "Model | model.Model", packages: Packages, report: Diagnostics) -> model.Model:
-    """Return the description of a model built in code, by its SDF, or the description itself.
+    """Return the description of a model built in code, read from its SDF; a description is returned as it is.
 
     Raises:
         UsageError: the argument is neither.
@@ -79,7 +79,7 @@ def described_model(built: "Model | model.Model", packages: Packages, report: Di
     """
     if isinstance(built, model.Model):
         return built
-    if not hasattr(built, "add_joint"):  # its class is not imported for a description
+    if not hasattr(built, "add_joint"):  # a description needs no import of the builder
         raise UsageError(f"a model is needed, as trundle.Model or ModelHandle.model, got {described(built)}")
     text, folder = built.to_sdf().encode(), Path.cwd()
     loaded = load_text(text, name=f"<{built.name}>", folder=folder, packages=packages, report=report)

@@ -78,5 +78,5 @@ def test_a_joined_master_is_named_on_the_first_line(
         monkeypatch.setenv("ROS_MASTER_URI", graph.core.uri)
         assert main(["run", str(file), "--headless", "--speed", "max", "--duration", "0.1"]) == 0
         first, *rest = capsys.readouterr().err.splitlines()
-    assert first == f"ROS master joined: {graph.core.uri}, which ROS_MASTER_URI names: something else started it"
+    assert first == f"ROS master joined: {graph.core.uri}, which ROS_MASTER_URI names: another process started it"
     assert not any(line.startswith("ROS master") for line in rest)

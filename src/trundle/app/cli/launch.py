@@ -134,7 +134,7 @@ def main(args: argparse.Namespace) -> int:
         if args.words:
             args.refuse("--core launches no files")
     if not (options.core_only or args.words or args.child or args.server_uri or args.run_id):
-        args.refuse("no launch file; say PKG FILE or a path, such as: trundle launch robot.launch")
+        args.refuse("no launch file; name PKG FILE or a path, such as: trundle launch robot.launch")
     if not min(options.interrupt_s, options.terminate_s) > 0.0:
         raise UsageError("--sigint-timeout and --sigterm-timeout must be > 0 s")
     if args.child or args.server_uri or args.run_id:

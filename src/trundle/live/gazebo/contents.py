@@ -30,7 +30,7 @@ _URDF = re.compile(r"<robot[\s>]")
 
 
 class GazeboContents:
-    """Live world of one gzserver, its state logs and its plugins' nodes; on its thread."""
+    """Live world of one gzserver, its state logs and its plugins' nodes; used on the simulation's thread only."""
 
     def __init__(
         self,
@@ -63,7 +63,7 @@ class GazeboContents:
             clock_hz: rate of /clock [Hz]; None: the default.
             post: calls a function on this thread.
             say: prints which plugins are loaded, and the paths of logs.
-            setup: seeds the simulation, starts with it, changes spawned models; None: no changes.
+            setup: sets the seed, changes the world and spawned models; None: no changes.
             is_lockstep: True: cut hollow meshes before time advances, so that runs repeat; False: in the background.
         """
         self._node, self._graph, self._post = node, graph, post
@@ -139,7 +139,7 @@ class GazeboContents:
 def _read_spawned(
     xml: str, *, name: str, namespace: str, folder: Path, packages: Packages, report: Diagnostics
 ) -> tuple[Model, Robot | None]:
-    """Read the one model of an SDF or URDF text, and the URDF's own tree.
+    """Read the only model of an SDF or URDF text; for URDF, return its own tree, too.
 
     Args:
         xml: SDF or URDF; written to a file, so that messages can name its lines.

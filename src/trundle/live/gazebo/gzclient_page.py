@@ -1,4 +1,4 @@
-"""Page in place of gzclient's window, opened on request of a node."""
+"""Page in place of gzclient's window; a node requests to open it."""
 
 from collections.abc import Callable
 
@@ -32,12 +32,12 @@ class GzclientPage:
 
     @property
     def url(self) -> str | None:
-        """URL of the page; None before it is served."""
+        """URL of the page; None until the page is served."""
         return None if self._shared is None else self._shared.url
 
     @property
     def is_pending(self) -> bool:
-        """True if the page can be opened and is not open yet."""
+        """True if the page may be opened, but is not open yet."""
         return self._shared is not None and self._page is None
 
     def open(self, live: LiveWorld, node: Node) -> None:

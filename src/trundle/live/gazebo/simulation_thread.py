@@ -16,7 +16,7 @@ _log = logging.getLogger(__name__)
 
 
 class SimulationThread:
-    """Runs functions that other threads queue, and steps between them; may be started again after it stopped."""
+    """Runs functions that other threads queue, and calls `tick` between them; can be started again after `stop`."""
 
     def __init__(self, loop: GraphLoop, tick: Callable[[], None], end: Callable[[], None]) -> None:
         """Prepare.

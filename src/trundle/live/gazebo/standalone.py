@@ -1,4 +1,4 @@
-"""`gazebo` and `gzserver`: one world, with /gazebo's services, on a graph that is joined or started."""
+"""`gazebo` and `gzserver`: one world with /gazebo's services, on the running graph or a new one."""
 
 import asyncio
 import os
@@ -80,7 +80,7 @@ class _Reloads:
                 if running.done():
                     return running.result()
                 if page.url is not None:
-                    page.acquire(None)  # keeps it open between two runs
+                    page.acquire(None)  # keeps the page open between two runs
             finally:
                 waiting.cancel()
                 running.cancel()
@@ -109,7 +109,7 @@ def open_window(loop: GraphLoop, node: Node) -> str | None:
 
 
 def _open_window(world: GazeboWorld, node: Node) -> dict[str, object]:
-    """Answer with the URL, empty if the page cannot be served; no success before the world is open."""
+    """Answer with the URL, which is empty if the page cannot be served; `success` is False until the world is open."""
     if not world.is_ready:
         return {"success": False}
     return {"success": True, "message": without_query(world.open_window(node) or "")}

@@ -92,7 +92,7 @@ class GazeboStepper:
             if self._lockstep is None or target_ns == simulation.time_ns:
                 live.advance(target_ns)
             else:
-                target_ns = simulation.time_ns + STRIDE_FLAT_OUT_NS  # not the pacer's: so that runs repeat at any speed
+                target_ns = simulation.time_ns + STRIDE_FLAT_OUT_NS  # not the pacer's, so that runs repeat
                 step = partial(self._step_lockstep, simulation, self._lockstep)
                 live.advance(self._lockstep.target_ns(target_ns), step)
         except SimulationUnstableError as error:
@@ -105,7 +105,7 @@ class GazeboStepper:
 
     def _step_lockstep(self, simulation: Simulation, steps: Lockstep, until_ns: int) -> None:
         """Advance hook by hook, and wait after each until the nodes have settled."""
-        end_ns = simulation.simulated_ns + until_ns - simulation.time_ns  # a node may reset time meanwhile
+        end_ns = simulation.simulated_ns + until_ns - simulation.time_ns  # a node may reset the time between two hooks
         while (left_ns := end_ns - simulation.simulated_ns) > 0 and not self.paused and not self._ending.is_set():
             if steps.over.is_set():
                 return

@@ -1,4 +1,4 @@
-"""Simulation of a launch: opened by gzserver, filled by spawn_model, shown by gzclient, on a thread of its own."""
+"""Simulation of a launch on its own thread: gzserver opens it, spawn_model adds models, gzclient shows it."""
 
 import asyncio
 import os
@@ -68,7 +68,7 @@ class GazeboWorld:
             timeline_mb: memory of the timeline, with a page [MB]; 0: none.
             reload: requests, from any thread, to load the world again; None: not supported.
             steps: holds time until the nodes have settled; None: time never waits.
-            setup: changes the world and its models, and starts with it; None: no changes.
+            setup: changes the world and its models; None: no changes.
         """
         self._setup = setup
         self._graph = graph
@@ -84,7 +84,7 @@ class GazeboWorld:
         self._spawned: dict[str, Callable[[], None]] = {}
         """Spawned model → function that spawns it again."""
         self._respawns: list[Callable[[], None]] | None = None
-        """Functions that spawn the models of a world that is loaded again; None: it is opened for the first time."""
+        """Functions that spawn the models again in a reloaded world; None: the world opens for the first time."""
         self._window = GzclientPage(page, say, reload=None if reload is None else self._reload)
         self._thread = SimulationThread(graph.loop, self._tick, self._end)
         self._contents: GazeboContents | None = None
@@ -102,7 +102,7 @@ class GazeboWorld:
 
     async def _open(self, node: Node, name: str, *, paused: bool, env: Mapping[str, str], record: str | None) -> None:
         if self._thread.is_running:
-            raise UsageError("a simulation runs already; a launch has one")
+            raise UsageError("a simulation is already running; a launch can have only one")
         self._env = {**self._env, **env}
         packages = Packages(self._env, start=self._start)
         self._stepper.paused = paused
@@ -141,7 +141,7 @@ class GazeboWorld:
         return 0
 
     def close(self) -> None:
-        """End the thread and everything on it; afterwards a world may be opened again."""
+        """End the simulation and its thread; afterwards `open` may open another world."""
         if self._thread.stop() and self._contents is not None:
             self._contents.close_plugins()
             self._contents = None

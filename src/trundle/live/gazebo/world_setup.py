@@ -28,5 +28,5 @@ class WorldSetup(Protocol):
         ...
 
     def start(self, simulation: Simulation, node: Node) -> None:
-        """Start at time zero; `node` is gzserver's."""
+        """Called at time zero, with gzserver's node."""
         ...

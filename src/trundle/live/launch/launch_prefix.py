@@ -28,7 +28,7 @@ class LaunchPrefix:
     fault: str | None = None
     """Reason why words of the prefix are left out; None: all are used."""
     program_fault: str | None = None
-    """The same, for programs that are no terminals."""
+    """Reason why words that name a program other than a terminal are left out; None: all are used."""
 
 
 def read_prefix(words: Sequence[str], env: Mapping[str, str]) -> LaunchPrefix:

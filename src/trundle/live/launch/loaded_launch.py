@@ -1,4 +1,4 @@
-"""A launch file as read; a separate module, so that `--nodes` and the like import nothing that runs nodes."""
+"""A launch file after reading; a separate module, so that options such as `--nodes` import nothing that runs nodes."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from trundle.robots.packages import Packages
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoadedLaunch:
-    """A launch as read: its commands have run, no node has started."""
+    """A launch after reading: its commands have run, no node has started."""
 
     plan: LaunchPlan
     params: Sequence[LaunchParam]

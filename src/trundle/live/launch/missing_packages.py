@@ -18,7 +18,7 @@ _URI = re.compile(r"package://([\w-]+)/")
 
 
 class _RecordingPackages(Packages):
-    """Finder that records the names of missing packages; files of those are left out."""
+    """Finder that records the names of missing packages, and leaves out their files."""
 
     def __init__(
         self, environment: Mapping[str, str], *, start: Path, fallback: "_RecordingPackages | None" = None

@@ -43,14 +43,14 @@ class LaunchedNode:
     node: LaunchNode
     kind: Literal["process", "stand-in", "missing", "failed"]
     detail: str
-    """Path of the program, package/type of the stand-in, or why the node is missing."""
+    """Path of the program, package/type of the stand-in, or the reason why the node cannot run."""
     job: Job | None = None
     log_files: str = ""
     terminal: Terminal | None = None
     """Terminal on the page; None: the node has none."""
 
     def failed(self) -> "LaunchedNode":
-        """Copy of this, marked as not started."""
+        """Copy of this node, marked as not started."""
         return replace(self, kind="failed", job=None)
 
 
@@ -66,10 +66,10 @@ class NodeStarter:
     """Interface of stand-ins to the launch."""
     terminals: NodeTerminals
     tree: ProcessTree
-    """Tree of the started processes, which end with it."""
+    """Tree of the started processes; ending the tree ends them."""
     log_folder: Path
     output: Literal["screen", "log"] | None = None
-    """Overrides the launch file."""
+    """Output of the nodes; None: as in the launch file."""
     all_required: bool = False
 
     def prepare(
@@ -86,7 +86,7 @@ class NodeStarter:
         Raises:
             DescriptionError: a required node that nothing can run.
         """
-        assert node.address is not None, "a node without a machine is refused before"
+        assert node.address is not None, "the caller has refused a node whose machine is unknown"
         if not is_local(node.address, self.env):
             reason = f"{node.address} is another machine, and nothing is started there; run trundle launch on it, too"
             return self._missing(node, f"{reason}, with ROS_MASTER_URI={self.graph.master_uri}")

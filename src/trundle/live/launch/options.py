@@ -26,7 +26,7 @@ class LaunchOptions:
     lesson: str | None = None
     """Lesson that the page opens: a name, or a path FILE.md."""
     renderer: Literal["cpu", "egl"] = "cpu"
-    """As `RunOptions.renderer`."""
+    """See `RunOptions.renderer`."""
     output: Literal["screen", "log"] | None = None
     """Output of every node; overrides the file's."""
     reads_keys: bool = False
@@ -48,7 +48,7 @@ class LaunchOptions:
     speed: float | None = 1.0
     """Simulated seconds per second of wall time; None: flat out."""
     in_step: bool = False
-    """True: time waits for the nodes at each step at any speed, as it does flat out."""
+    """True: time waits for the nodes at each step, at any speed; flat out it always does."""
     record: Path | None = None
     """Path of a bag that records every topic."""
     record_from_s: float = 0.0
@@ -60,4 +60,4 @@ class LaunchOptions:
     timeline_mb: int = 256
     """Memory of the timeline, with a page [MB]; 0: none."""
     node: str = ""
-    """Node of `find-node` and `args`."""
+    """Name of the node for `find-node` and `args`."""

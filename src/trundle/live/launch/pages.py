@@ -10,7 +10,7 @@ from trundle.robots.launch import LaunchPlan
 from .nodes import LaunchedNode
 
 _TIMEOUT_S = 20.0
-"""A world may take longer to read; its page's URL is then printed on a line of its own."""
+"""Time to wait for the page [s]; if reading the world takes longer, its URL is printed later, on a separate line."""
 _POLL_S = 0.05
 _VIDEO_SERVER = ("web_video_server", "web_video_server")
 _VIDEO_PORT = 8080
@@ -26,7 +26,7 @@ class OpeningPage(Protocol):
 
 
 def opens_page(launched: Sequence[LaunchedNode]) -> bool:
-    """Return True if a started node opens the page, as rviz, rqt's programs, gzclient and terminals do."""
+    """Return True if a started node opens the page: rviz, a program of rqt, gzclient, or one with a terminal."""
     started = {(entry.node.package, entry.node.type) for entry in launched if entry.kind == "stand-in"}
     return not (CLIENTS | WINDOWS).isdisjoint(started) or any(entry.terminal is not None for entry in launched)
 

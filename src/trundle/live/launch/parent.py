@@ -26,7 +26,7 @@ class ParentLaunch:
         Args:
             name: this child's name.
             uri: URI of the parent's XML-RPC server.
-            run_id: run_id of the master, which may start after its children.
+            run_id: run_id of the master, which may start after this child.
         """
         self.uri = uri
         self.run_id = run_id

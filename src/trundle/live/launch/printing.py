@@ -48,7 +48,7 @@ def node_command(plan: LaunchPlan, name: str, packages: Packages, env: Mapping[s
         case Executable(path):
             program = str(path)
         case BuiltinReplacement():
-            program = f"{node.package}/{node.type}"  # runs within trundle: there is no command line to copy
+            program = f"{node.package}/{node.type}"  # a stand-in runs in this process: there is no command line to copy
         case MissingNode(reason):
             raise UsageError(f"node {node.full_name}: {reason}")
     words = [*shlex.split(node.launch_prefix), program, *shlex.split(node.arguments)]

@@ -40,7 +40,7 @@ def read_request(words: Sequence[str], packages: Packages) -> LaunchRequest:
         else:
             rest.append(word)
     if not rest:
-        raise UsageError("no launch file; say PKG FILE or a path, such as: trundle launch robot.launch")
+        raise UsageError("no launch file; name PKG FILE or a path, such as: trundle launch robot.launch")
     if _is_text(rest[0]) or os.path.isfile(rest[0]):
         texts = [word for word in rest if _is_text(word)]
         files = [word for word in rest if word not in texts]

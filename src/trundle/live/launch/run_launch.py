@@ -50,7 +50,7 @@ def launch(words: Sequence[str], options: LaunchOptions, environment: Mapping[st
     if options.verbose:
         _print_summary(loaded.plan, loaded.params, show.line)
         for folder, reason in loaded.packages.skipped_folders().items():
-            show.line(f"no package is looked for in {folder}: {reason}")
+            show.line(f"packages are not searched in {folder}: {reason}")
     with stop_flag() as stop:
         if options.wait_for_master and not _wait_for_master(loaded.env, stop, show.line):
             return 130
@@ -168,7 +168,7 @@ def _run(loaded: LoadedLaunch, options: LaunchOptions, stop: StopFlag, read_agai
             is_over = session.is_over or running.required_died or (running.is_over and not session.has_master)
             is_over = is_over or session.recording_failed
         required_died = running.required_died
-    if session.recording_failed:  # or closing the bag failed
+    if session.recording_failed:  # recording failed, or closing the bag did
         return 1
     if stop.is_set():
         return 130
@@ -234,7 +234,7 @@ class _LaunchDuration:
         Args:
             clock: ROS time of the nodes.
             duration_s: duration of the launch [s].
-            in_step: time starts at zero, and the stepping thread notices the end itself.
+            in_step: True: time starts at zero, and the stepping thread detects the end.
             has_world_ended: True if the world that published /clock has ended.
             say: prints that the rest is counted in wall time.
         """

@@ -65,7 +65,7 @@ class LaunchSession:
         """
         self._read_again = read_again
         self._reloaded: LoadedLaunch | None = None
-        """Launch as read again on request of the page."""
+        """Launch as reread on request of the page."""
         self._setup = setup
         self._gazebo: GazeboWorld | None = None
         self._loaded = loaded
@@ -210,7 +210,7 @@ class LaunchSession:
         self._loaded.show.line(reason)
 
     def _may_publish_clock(self, launcher: Node) -> bool:
-        """True if nothing else publishes it: no simulation, no other program of a joined graph, no bag to play."""
+        """True if nothing else publishes /clock: no simulation, no other program of a joined graph, no bag to play."""
         graph = self.graph
         if _has_world(self._loaded.plan) or graph.core is None:
             return False
@@ -227,7 +227,7 @@ class LaunchSession:
 
     @property
     def has_master(self) -> bool:
-        """True if the master was started here: like roslaunch, the launch then outlives its last node."""
+        """True if this launch started the master; like roslaunch, it then outlives its last node."""
         return self.graph.core is not None
 
     @property
@@ -252,7 +252,7 @@ class LaunchSession:
 
     @property
     def is_busy(self) -> bool:
-        """True while this process has work that needs no ROS time to pass."""
+        """True while this process has work that can go on without ROS time advancing."""
         return self.graph.loop.work.is_busy
 
     @property
@@ -356,7 +356,7 @@ class LaunchSession:
         assert loaded is not None
         assert self._running is not None
         assert self._page is not None, "the page has requested it"
-        self._page.acquire(self._launcher)  # keeps it open while its windows close
+        self._page.acquire(self._launcher)  # keeps the page open while its windows close
         loop = self.graph.loop
         loop.run(self._running.stop())
         self._loaded = loaded
@@ -413,5 +413,5 @@ def _simulates(plan: LaunchPlan) -> bool:
 
 
 def _has_world(plan: LaunchPlan) -> bool:
-    """True if a node runs Gazebo's world, and so publishes /clock; a spawner alone does not."""
+    """True if a node runs Gazebo's world, which publishes /clock; a spawner alone does not."""
     return any((node.package, node.type) in WORLDS for node in plan.nodes)

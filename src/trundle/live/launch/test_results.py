@@ -17,9 +17,9 @@ class CaseResult:
     name: str
     seconds: float = 0.0
     problem: str = ""
-    """Message of the failure; empty: it passed."""
+    """Message of the failure; empty if the case passed."""
     is_error: bool = False
-    """True if it could not be run; False: it failed or passed."""
+    """True if the case could not be run; False if it failed or passed."""
 
     @property
     def verdict(self) -> str:

@@ -19,7 +19,7 @@ class RosInterface:
     """Node, topics and parameters of one world."""
 
     def __init__(self, graph: Graph, live: LiveWorld, loaded: LoadedWorld) -> None:
-        """Advertise a world on a graph; its sensors have started."""
+        """Advertise a world on a graph; its sensors must have started."""
         simulation = live.simulation
         self._graph = graph
         self._simulation = simulation

@@ -54,7 +54,7 @@ class RunResult:
     snapshot: Snapshot
     steps: int
     simulated_s: float
-    """Total of the run [s], like the steps; a reset only rewinds the snapshot's time."""
+    """Simulated time of the whole run [s]; a reset rewinds the snapshot's time, not this."""
     wall_s: float
     images: int
     """Number of rendered camera images."""
@@ -107,7 +107,7 @@ class RunResult:
 
 
 class _State:
-    """Reader of a snapshot in its order: a model's links and joints, then those of its nested models."""
+    """Reader of a snapshot in the snapshot's order: a model's links and joints, then those of its nested models."""
 
     def __init__(self, snapshot: Snapshot) -> None:
         self._snapshot = snapshot
@@ -123,7 +123,7 @@ class _State:
             first = Pose.from_rpy(*links[0]["pose"])
             world_from_model = first @ model.links[0].model_from_link.inverse()
         nested = [self.model(inner, world_from_model) for inner in model.models]
-        if nested and not model.links:  # its frame follows the first nested model
+        if nested and not model.links:  # the frame of a model without links follows its first nested model
             world_from_model = nested[0][1] @ model.models[0].world_from_model.inverse()
         entry: ModelJson = {
             "name": model.name,

@@ -53,7 +53,7 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
         from ..graph import master_notice
 
         if joined := master_notice(env):
-            show.line(f"{joined}: something else started it")
+            show.line(f"{joined}: another process started it")
     if options.headless and options.compare is not None:
         raise UsageError("--compare needs the page: leave --headless out, or record and use trundle compare")
     compared = None
