@@ -1,6 +1,6 @@
 """Pacing of simulation time by the wall clock, or flat out.
 
-The simulator itself never reads the wall clock.
+The rest of the simulator never reads the wall clock.
 """
 
 import sys
@@ -19,9 +19,9 @@ _LONGEST_STRIDE_NS = 1_000_000_000
 _LONGEST_SLEEP_NS = 100_000_000
 """Longest sleep, in wall time [ns]: requests and the end of the run are checked in between."""
 _LAG_FORGIVEN_NS = 200_000_000
-"""Largest lag that is caught up [ns]; a slower run is slow, not jerky."""
+"""Largest lag that is caught up [ns]; beyond it, the run is slow rather than jerky."""
 _GIL_INTERVAL_S = 0.0005
-"""A tenth of Python's default switch interval [s]."""
+"""Switch interval of the interpreter [s], a tenth of Python's default."""
 
 
 def shorten_gil_interval() -> None:
@@ -72,9 +72,9 @@ class RealtimePacer:
         self._recent.clear()
 
     def next_target(self, time_ns: int) -> int:
-        """Return the simulation time [ns] to advance to; sleep first if ahead of the wall clock.
+        """Return the simulation time [ns] to advance to; sleep first if the simulation is ahead.
 
-        Far ahead of it, this is the same time again.
+        If the simulation is far ahead of the wall clock, this is the present time.
         """
         now = self._wall_ns()
         self._recent.append((now, time_ns))

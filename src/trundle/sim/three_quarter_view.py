@@ -9,11 +9,11 @@ from trundle.sim.render import Intrinsics, Scene, corners_of
 from trundle.spatial import Pose, pose_from_row
 
 FIELD_OF_VIEW = 0.6
-"""Horizontal [rad]: a long lens, with little perspective."""
+"""Horizontal field of view [rad]: a long lens, with little perspective."""
 STUDIO_LIGHT, BACKDROP = (0.6, 0.6, 0.6, 1.0), (0.95, 0.95, 0.95, 1.0)
-"""RGBA, brighter than most worlds."""
+"""Background, RGBA, brighter than most worlds."""
 _FROM = (math.radians(-38.0), math.radians(16.0))
-"""Azimuth and elevation [rad]."""
+"""Azimuth and elevation of the view [rad]."""
 _MARGIN = 1.08
 
 

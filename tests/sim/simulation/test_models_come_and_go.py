@@ -175,5 +175,5 @@ def test_gravity_and_masses_can_be_edited_while_the_state_continues(sim: Simulat
 
 
 def test_an_edited_world_must_have_the_same_structure(sim: Simulation, third: Model) -> None:
-    with pytest.raises(UsageError, match="spawn and delete change those"):
+    with pytest.raises(UsageError, match="use spawn and delete to change those"):
         sim.edit(replace(sim.world, models=(*sim.world.models, third)))

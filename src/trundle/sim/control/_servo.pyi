@@ -27,12 +27,12 @@ class ToolboxPid:
         """Clear the integral and the last error."""
 
     def command(self, error: float, dt: float, *, slope: float | None = None) -> float:
-        """Return the command, dt [s] after the last.
+        """Return the command, dt [s] after the last one.
 
         Args:
             error: desired − actual.
             dt: time since the last command [s].
-            slope: derivative of the error [1/s]; None: from the last error, which is 0 before the first.
+            slope: derivative of the error [1/s]; None: difference from the last error, which is 0 at first.
         """
 
     def checkpoint(self) -> Callable[[], None]:
@@ -74,7 +74,7 @@ class ServoJoint:
         """
 
     def bind(self, axis: MotorAxis) -> None:
-        """Follow an axis of another engine."""
+        """Use an axis of another engine from now on, after the world was recompiled."""
 
     @property
     def position(self) -> float:
@@ -98,7 +98,7 @@ class ServoJoint:
 
     @property
     def settling_ns(self) -> int:
-        """Time for a driven position to settle [ns]: gazebo_ros_control sets it at once."""
+        """Time for a driven position to settle [ns]; gazebo_ros_control sets the position at once."""
 
     @property
     def resting_command(self) -> float:
@@ -108,10 +108,10 @@ class ServoJoint:
         """Read position, velocity and effort."""
 
     def error(self, position: float) -> float:
-        """Return the difference of a position to the joint's [rad or m]; the shorter way round if continuous."""
+        """Return a position minus the joint's [rad or m]; the shorter way round if the joint is continuous."""
 
     def shortest_error(self, position: float) -> float:
-        """Return the difference of a position to the joint's [rad or m]; the shorter way round unless prismatic, as in
+        """Return a position minus the joint's [rad or m]; the shorter way round unless the joint is prismatic, as in
         joint_trajectory_controller.
         """
 
@@ -185,7 +185,7 @@ class TrajectoryLaw(ServoLaw):
         """
 
     def begin_goal(self, goal: int) -> None:
-        """Start the goal of a number, not reached by any joint yet."""
+        """Start to watch the goal of this number; no joint has reached it yet."""
 
     def take_event(self) -> tuple[int, int, float] | None:
         """Return the result of the watched goal once: error code, joint and its position error [rad or m]."""
@@ -284,7 +284,7 @@ class Servo(StepAction):
 
     def __init__(self, joints: Sequence[ServoJoint]) -> None: ...
     def set_laws(self, laws: Sequence[ServoLaw]) -> None:
-        """Run these laws from now on."""
+        """Run the given laws from now on."""
 
     def restart(self, time_ns: int) -> None:
         """Begin a control period now."""

@@ -19,7 +19,7 @@ class SpeedLimit(Struct, frozen=True, kw_only=True):
     """[m/s³ or rad/s³]"""
 
     def limit(self, requested: float, last: float, before_last: float, dt: float) -> float:
-        """Return the allowed velocity nearest to the requested one, from the last two, each dt [s] apart."""
+        """Return the allowed velocity nearest to the requested one; the last two velocities are dt [s] apart."""
         if math.isfinite(self.max_jerk) or math.isfinite(self.min_jerk):
             change, before = requested - last, last - before_last
             twice = 2.0 * dt * dt

@@ -7,7 +7,7 @@ from .document import Document
 
 _Array = NDArray[np.float64]
 _DECIMALS = 6
-"""Decimals of positions [m] and quaternions; keys at rest are equal then, and are left out."""
+"""Decimals of positions [m] and quaternions, so that the keys of a body at rest are equal and left out."""
 _XYZW = [4, 5, 6, 3]
 """Columns of a pose, x y z qw qx qy qz, in the order of a glTF quaternion."""
 

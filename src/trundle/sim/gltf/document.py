@@ -148,7 +148,7 @@ class Document:
         return offset
 
     def glb(self, root: int) -> bytes:
-        """Return the document as a binary glTF; `root` is its one root node."""
+        """Return the document as a binary glTF; `root` is its only root node."""
         tree: dict[str, object] = {"asset": {"version": "2.0", "generator": "Trundle"}, "scene": 0}
         tree |= {"scenes": [{"nodes": [root]}], **self._lists}
         if self._binary:

@@ -113,7 +113,7 @@ def _visual_node(document: Document, shape: Shape) -> dict[str, object]:
         triangles, pose, scale = scaled_solid(shape.geometry)
     mesh = document.mesh(triangles, _material(document, shape, has_uv=triangles.has_uv))
     extras: dict[str, object] = {"visual": shape.name}
-    if not shape.casts_shadow or isinstance(shape.geometry, Plane):  # floors, as in the native renderer
+    if not shape.casts_shadow or isinstance(shape.geometry, Plane):  # planes cast no shadow, as in the native renderer
         extras["casts_shadow"] = False
     node: dict[str, object] = {"name": shape.name, "mesh": mesh, "extras": extras}
     return node | transform_fields(shape.body_from_shape @ pose, scale)

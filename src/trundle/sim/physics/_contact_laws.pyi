@@ -71,7 +71,7 @@ class StepAction:
     """Action before each step."""
 
     def checkpoint(self) -> Callable[[], None]:
-        """Return a function that restores the action's state, without the engine's."""
+        """Return a function that restores the action's state, but not the engine's."""
 
 def step(
     model: int,
@@ -83,8 +83,8 @@ def step(
     time_ns: int,
     step_ns: int,
 ) -> tuple[int, bool]:
-    """Step up to `count` times; return how many steps, fewer if a recorder became stale or an action needs Python, and
-    False if one does.
+    """Step up to `count` times; return the number of steps, and False if an action needs Python. The steps end early
+    if an action needs Python or a recorder is stale.
 
     Args:
         model: address of the model.

@@ -25,7 +25,7 @@ def unsupported_reason(actor: Actor) -> str | None:
         skin = load_skin(actor.skin.path)
         for animation in actor.animations:
             if animation.path is not None and match_bones(skin.bones, load_motion(animation.path).bones) is None:
-                return f"animation {animation.name!r} is of another skeleton"
+                return f"animation {animation.name!r} is for another skeleton"
     except MeshError as error:
         return str(error)
     return None
@@ -94,7 +94,7 @@ class SkinnedActor:
         axes = skin.joint_poses(self._bone_poses(AnimationState()))[:, :3, :3]
         lengths = np.maximum(np.linalg.norm(axes, axis=1), _SMALL)
         self._stretches: _Array = lengths * np.sign(np.linalg.det(axes))[:, None]
-        """(B, 3) scales along the bones' axes at the start of the first animation; negative for a mirrored bone."""
+        """(B, 3) scales along the bones' axes at the start of the first animation; negative for mirrored bones."""
         self.bone_from_skin: _Array = skin.bone_from_skin.copy()
         """(B, 4, 4) bind matrices, with those scales and the skin's, which `bone_poses` do not contain."""
         self.bone_from_skin[:, :3] *= self._scale * self._stretches[:, :, None]

@@ -29,9 +29,9 @@ from .scene import Scene, SceneLight, SceneSkin, Shape, ShapeGeometry
 _COLLISION: Rgba = (1.0, 0.55, 0.1, 0.45)
 _SKY: tuple[Rgba, Rgba] = ((0.86, 0.91, 0.96, 1.0), (0.30, 0.52, 0.82, 1.0))
 _MAX_CORNERS = 1000
-"""Most corners of a polyline; triangulation time grows with their cube."""
+"""Maximum number of corners of a polyline; the time of triangulation grows with its cube."""
 _MIN_OPACITY = 0.02
-"""Opacity below which a visual is not drawn at all."""
+"""Opacity below which a visual is not drawn."""
 
 
 def scene_from_world(world: World, report: Diagnostics, *, collisions: bool = False, mask: int = EVERY_BIT) -> Scene:
@@ -55,7 +55,7 @@ def scene_from_world(world: World, report: Diagnostics, *, collisions: bool = Fa
             actor = actors.get(link.name)
             animated = None
             if actor is not None and actor.name == model.name:
-                from .actor_skins import skinned_shapes  # reads COLLADA's bones; few worlds have any
+                from .actor_skins import skinned_shapes  # this module reads COLLADA's bones; few worlds have any
 
                 animated = skinned_shapes(actor, len(bodies), len(shapes))
             if animated is None:
@@ -168,11 +168,11 @@ def _geometry(geometry: Geometry, at: Source, report: Diagnostics) -> ShapeGeome
         case Polyline(outlines, height):
             return _prism(outlines, height, at, report)
         case Heightmap():
-            from .terrain import painted_terrain  # with Pillow, which is slow to load
+            from .terrain import painted_terrain  # imports Pillow, which is slow to load
 
             return painted_terrain(geometry, at, report)
         case MeshFile(path=path):
-            assert path is not None  # caught above
+            assert path is not None  # unreadable meshes are reported above
         case _:
             return geometry
     try:

@@ -151,7 +151,7 @@ class NativeRenderer:
         self, views: Sequence[tuple[Pose, Intrinsics]], *, depth: bool = False, segmentation: bool = False
     ) -> list[Picture]:
         """See `Renderer.render`."""
-        # One allocation: memory of many small images would return to the system after each call.
+        # One allocation: the memory of many small images would go back to the system after each call.
         shape = (len(views), *size_of(views))
         rgb = np.empty((*shape, 3), dtype=np.uint8)
         depths = np.empty(shape, dtype=np.float32) if depth else None

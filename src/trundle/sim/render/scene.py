@@ -62,7 +62,7 @@ class SceneLight(Struct, frozen=True, kw_only=True):
     range_m: float = 1e9
     inner_angle_rad: float = 0.0
     outer_angle_rad: float = 1.0
-    """Full angle of a spot's fully lit cone, above, and of its outer cone."""
+    """Full angles of a spot's cones: `inner_angle_rad` of the fully lit one, `outer_angle_rad` of the outer one."""
     falloff: float = 1.0
     casts_shadows: bool = False
 

@@ -14,7 +14,7 @@ from trundle.spatial import Vector3
 from .textures import load_texture
 
 _MAX_SAMPLES = 257
-"""Most height samples per side."""
+"""Maximum number of height samples per side."""
 _SIDE_PX = 1024
 """Size of the texture over the whole terrain [px]."""
 

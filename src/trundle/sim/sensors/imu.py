@@ -96,6 +96,6 @@ def _sum(*vectors: Vector3) -> Vector3:
 
 
 def _difference(first: Vector3, second: Vector3, scale: float = 1.0) -> Vector3:
-    """Return (first − second) / scale."""
+    """Return (first − second) / scale, by component."""
     x, y, z = ((a - b) / scale for a, b in zip(first, second, strict=True))
     return (x, y, z)

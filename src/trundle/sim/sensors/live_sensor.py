@@ -22,7 +22,7 @@ class _Listener(Struct, Generic[Reading]):
 
 
 def _period_ns(rate_hz: float) -> Fraction:
-    """Return the exact period, which does not drift; 0.1 Hz counts as a tenth."""
+    """Return the exact period, so that no error accumulates; 0.1 Hz counts as 1/10 Hz."""
     return NS_PER_S / (Fraction(rate_hz).limit_denominator(1_000_000) or Fraction(rate_hz))
 
 
@@ -70,9 +70,9 @@ class LiveSensor(Generic[Reading]):
         self._index = mount.link_index
         self._handle: LinkHandle | None = None
         self.parent_name = mount.link.name
-        """Name in its topics: its link, or the measured joint."""
+        """Name in the sensor's topics: its link, or the measured joint."""
         self.topics: dict[str, str] = {}
-        """Topics of its readings, the main one first, each with its message type."""
+        """Topics of the sensor's readings, the main one first, each with its message type."""
         rate = mount.sensor.update_rate_hz or default_rate_hz
         self.period_ns = 0 if rate is None else _period_ns(rate)
         self._simulation: Simulation | None = None
@@ -129,7 +129,7 @@ class LiveSensor(Generic[Reading]):
     def listen(self, call: Callable[[Reading], None], *, enabled: Callable[[], bool] = lambda: True) -> None:
         """Call a function with each reading while `enabled` returns True; nothing is measured without listeners.
 
-        A function that listens already is not added again.
+        A function that is already a listener is not added again.
         """
         if all(listener.call != call for listener in self._listeners):
             self._listeners.append(_Listener(call, enabled))

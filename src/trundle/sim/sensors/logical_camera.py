@@ -23,7 +23,7 @@ class ModelShapes(Struct, frozen=True, eq=False, kw_only=True):
 
     name: str
     base_index: int
-    """Index of its canonical link."""
+    """Index of the model's canonical link."""
     base_from_model: Pose
     corners: Mapping[int, _Points]
     """Link index → (n, 3) corners of the link's collision shapes in its frame [m]."""

@@ -131,7 +131,7 @@ class MountedSensors:
             sensor.start(self._simulation)
 
     def _mount(self, models: Mapping[str, ModelHandle], name: str | None) -> None:
-        """Mount the sensors of the model with a name, or of all models (None)."""
+        """Mount the sensors of the model of a name; None: of all models."""
         cameras = mount_cameras(self._simulation, self._make, model=name, existing=self.cameras)
         self._cameras += [(models[camera.model.name], camera) for camera in cameras]
         if any(has_instruments(model.model) for model in models.values()):

@@ -28,7 +28,7 @@ class NoiseSource:
         return float(self.apply(np.array([value]), time_ns)[0])
 
     def apply(self, values: _Values, time_ns: int) -> _Values:
-        """Return an instant's values with noise on each."""
+        """Return the values of one instant with noise on each."""
         noise = self._noise
         if self.is_silent:
             return values

@@ -37,7 +37,8 @@ class RayScene:
 
     def rays_excluding(self, model: Model, link: Link) -> Rays:
         """Return a caster against the collision shapes that a link may collide with, as Gazebo's sonar is a shape of
-        its link: none of its own model, or with <self_collide> the shapes of links without a joint to it.
+        its link. Of the link's own model there are none, or with <self_collide> the shapes of links without a joint
+        to the link.
         """
         connected = {link.name, *(end for joint in model.joints for end in _ends(joint, link.name))}
 
@@ -112,7 +113,7 @@ class RayScene:
 
 
 def _ends(joint: Joint, link: str) -> tuple[str, str]:
-    """Return the joint's links if `link` is one of them, else `link` twice."""
+    """Return the joint's two links if `link` is one of them, else `link` twice."""
     return (joint.parent, joint.child) if link in (joint.parent, joint.child) else (link, link)
 
 

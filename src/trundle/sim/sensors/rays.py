@@ -15,9 +15,9 @@ from trundle.spatial import Pose, Vector3
 
 _Array = NDArray[np.float64]
 _ENDLESS = 2e6
-"""Width of an infinite collision plane [m]; only a visual plane has a size."""
+"""Width that stands for an infinite collision plane [m]; only a visual plane has a size."""
 _LAYERS = 8
-"""Most nested links that a ray passes through; a lidar is inside two or three."""
+"""Maximum number of links that enclose a ray's origin and that it passes through; a lidar is inside two or three."""
 _AWAY = 1e6
 """Position that hides links from rays [m]."""
 
@@ -95,7 +95,7 @@ class RayCaster:
 
 
 def _with_infinite_planes(scene: Scene) -> Scene:
-    """Return the scene with infinite planes."""
+    """Return the scene with planes of `_ENDLESS` width."""
     shapes = tuple(
         replace(shape, geometry=replace(shape.geometry, size=(_ENDLESS, _ENDLESS)))
         if isinstance(shape.geometry, Plane)

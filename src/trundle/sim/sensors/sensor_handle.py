@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from trundle.sim.simulation import Simulation
 
-if TYPE_CHECKING:  # worlds import the modules of their sensors only
+if TYPE_CHECKING:  # a world imports only the modules of its sensors
     from .air import PressureReading
     from .altimeter import AltimeterReading
     from .cameras.camera import CameraReading, CameraSensor
@@ -64,8 +64,9 @@ class SensorHandle:
     def read(self) -> "SensorReading":
         """Return a reading of the current state, with the sensor's noise.
 
-        IMUs and contact sensors depend on earlier states. After their first lookup by name they measure at their own
-        rate, and this is their latest reading; before, an IMU has no acceleration other than gravity.
+        IMUs and contact sensors depend on earlier states. From their first lookup by name on they measure at their
+        own rate, and `read` returns their latest reading; until the first, an IMU has no acceleration other than
+        gravity.
         """
         latest = self._latest
         if latest is not None and latest.time_ns <= self._simulation.time_ns:

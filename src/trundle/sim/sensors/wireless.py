@@ -100,7 +100,7 @@ class WirelessSensor(LiveSensor[WirelessReading]):
         return settings.power_dbm + settings.gain_dbi + self._settings.gain_dbi - shadowing + wave - path_loss
 
     def _is_obstructed(self, start: Vector3, end: Vector3, exclude: int) -> bool:
-        """True if a third link is in between: rays from both ends stop before they meet."""
+        """True if a third link is in between: rays from the two ends stop before they meet."""
         direction = normalized((end[0] - start[0], end[1] - start[1], end[2] - start[2]))
         if direction is None:
             return False

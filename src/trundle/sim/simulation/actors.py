@@ -22,14 +22,14 @@ if TYPE_CHECKING:  # worlds without actors do not import their modules
 _PERSON: Vector3 = (0.3, 0.5, 1.8)
 """Size of a skin that cannot be read [m]."""
 _ACTOR_PLUGIN = "libActorPlugin.so"
-"""Plugin that ignores scripts, and lays skins, whose up axis is y, on their backs with the hips at 1.2138 m."""
+"""Plugin that ignores scripts, and turns skins, whose up axis is y, upright with the hips at 1.2138 m."""
 _HIPS = 1.2138
 _WALKING = "walking"
 """Animation that the plugin plays."""
 
 
 def with_actors(world: World, report: Diagnostics) -> World:
-    """Return the world with a model for each visible actor without one."""
+    """Return the world with an added model for each visible actor that has none."""
     names = {model.name for model in world.models}
     added = [_model(actor, report) for actor in world.actors if actor.name not in names]
     return replace(world, models=(*world.models, *(model for model in added if model.links)))

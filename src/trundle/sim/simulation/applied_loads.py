@@ -44,7 +44,7 @@ class AppliedLoads:
     """Wrenches, efforts and surface motions of one simulation."""
 
     def __init__(self, engine: Engine, clock: Callable[[], tuple[int, int]]) -> None:
-        """Create without loads; `clock` returns the current step, and its length [ns]."""
+        """Create without loads; `clock` returns the current step and the step length [ns]."""
         self._engine = engine
         self._clock = clock
         self.expiries = Expiries()
@@ -77,7 +77,7 @@ class AppliedLoads:
         )
 
     def _end(self, duration_s: float) -> int:
-        """Return the step at which a load that begins now ends, after one step at the earliest."""
+        """Return the step at which a load that begins now ends; it lasts at least one step."""
         step, step_ns = self._clock()
         return step + max(1, round(duration_s * NS_PER_S / step_ns))
 

@@ -83,7 +83,7 @@ class PeriodicTimer:
         return self._at_every_step
 
     def restart(self, start_ns: Period, clock: StepClock | None = None) -> None:
-        """Set the next due time [ns], optionally on another clock."""
+        """Set the next due time [ns], optionally for another clock."""
         if clock is not None:
             self._clock = clock
             self._at_every_step = self._period_ns <= clock.step_ns
@@ -92,7 +92,7 @@ class PeriodicTimer:
         """Step at which the timer is due."""
 
     def set_clock(self, clock: StepClock) -> None:
-        """Keep the due time on another clock."""
+        """Keep the due time after a change of clock."""
         self.restart(self._clock.time_ns(self.step) if self._at_every_step else self._next_ns, clock)
 
     def due(self, step: int) -> bool:
@@ -132,7 +132,7 @@ class ScheduledHook(Generic[WorldT]):
         assert has_method, f"{hook!r} has neither before_step nor after_step"
         self._in_step = hook if isinstance(hook, InStep) else None
         self.action: StepAction | None = None
-        """Action of the coming steps but the first; None: `before_step` only."""
+        """Action of the coming steps except the first; None: `before_step` only."""
         self._until_ns = 0
         self._clock = clock
         self.retime(period_ns, now_ns=now_ns)
@@ -147,7 +147,7 @@ class ScheduledHook(Generic[WorldT]):
         self._timers = [alarm for method, alarm in alarms if method is not None]
 
     def set_clock(self, clock: StepClock) -> None:
-        """Keep the due times on another clock."""
+        """Keep the due times after a change of clock."""
         self._clock = clock
         self.before_timer.set_clock(clock)
         self.after_timer.set_clock(clock)

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from typing import Generic, TypeAlias, TypeVar
 
 Repeat: TypeAlias = Callable[[], object]
-"""Repeats the effect of an input from outside, such as a message."""
+"""Function that repeats the effect of an input from outside, such as a message."""
 Owner = TypeVar("Owner")
 
 
@@ -13,12 +13,12 @@ class Inputs(Generic[Owner]):
     """Queue of one simulation; `post` and `post_callback` are thread-safe."""
 
     def __init__(self, owner: Owner) -> None:
-        """Create an empty queue; commands are called with the owner."""
+        """Create an empty queue; each command is called with `owner`."""
         self._owner = owner
         self._waiting: deque[tuple[Callable[[Owner], object], bool]] = deque()
-        """(command, True if somebody waits for its result)."""
+        """(command, True if a caller waits for its result)."""
         self.record: Callable[[Repeat], None] | None = None
-        """Receives a function that repeats each input from outside."""
+        """Called after each input from outside, with a function that repeats it."""
 
     def post(self, command: Callable[[Owner], object]) -> None:
         """Queue a command."""
@@ -33,7 +33,7 @@ class Inputs(Generic[Owner]):
         self.post(lambda _: self.call(callback))
 
     def post_call(self, callback: Callable[[], Repeat | None]) -> None:
-        """Queue a callback as `post_callback`, for whose result somebody waits: `run_calls` calls it, too."""
+        """Queue a callback whose result a caller waits for; as `post_callback`, but `run_calls` calls it, too."""
         self._waiting.append((lambda _: self.call(callback), True))
 
     def call(self, callback: Callable[[], Repeat | None]) -> None:
@@ -50,7 +50,7 @@ class Inputs(Generic[Owner]):
         return count > 0
 
     def run_calls(self) -> None:
-        """Call only what `post_call` has queued, while no step comes; the rest keeps its order."""
+        """Call only the callbacks of `post_call`, while the simulation is paused; all others keep their order."""
         queued = [self._waiting.popleft() for _ in range(len(self._waiting))]
         self._waiting.extendleft(reversed([entry for entry in queued if not entry[1]]))
         for command, is_call in queued:

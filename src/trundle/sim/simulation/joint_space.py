@@ -115,7 +115,7 @@ class JointSpace:
 
 
 def _read_only(values: Sequence[float]) -> _Array:
-    """Return an array whose entries cannot be assigned, which would not change the simulation."""
+    """Return a read-only array: assigning an entry would not change the simulation."""
     array = np.array(values)
     array.flags.writeable = False
     return array

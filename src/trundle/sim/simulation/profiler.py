@@ -1,4 +1,4 @@
-"""Profiler of strides; only it reads a wall clock."""
+"""Interface of a profiler of strides, which reads the wall clock."""
 
 from enum import Enum
 from typing import Protocol

@@ -9,7 +9,7 @@ from .step_clock import StepClock
 
 
 class SavedSimulation(Struct, frozen=True):
-    """State to restore."""
+    """State that `restore` takes."""
 
     __module__ = "trundle"
 

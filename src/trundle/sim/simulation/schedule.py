@@ -49,7 +49,7 @@ class Schedule(Generic[WorldT]):
         return next((scheduled.name for scheduled in self._hooks if scheduled.hook is hook), None)
 
     def rename_model(self, name: str, new: str) -> None:
-        """Rename the hooks that are named as parts of a model."""
+        """Rename the hooks named `model::…` after a model was renamed."""
         for hook in self._hooks:
             if hook.name is not None and hook.name.startswith(f"{name}::"):
                 hook.name = new + hook.name.removeprefix(name)
@@ -59,7 +59,7 @@ class Schedule(Generic[WorldT]):
         self._hooks = [scheduled for scheduled in self._hooks if scheduled.hook is not hook]
 
     def set_clock(self, clock: StepClock) -> None:
-        """Keep the due times of all hooks on another clock."""
+        """Keep the due times of all hooks after a change of clock."""
         self._clock = clock
         for hook in self._hooks:
             hook.set_clock(clock)

@@ -30,7 +30,7 @@ if TYPE_CHECKING:  # reading a log needs no physics
 _ROW = np.dtype("<f8")
 _LONGEST_HEADER = 256 * 1024 * 1024
 _LARGEST = 1e12
-"""Largest number [s, m, rad]: float32 of glTF holds it, and its square."""
+"""Largest number in a log [s, m, rad]; the float32 numbers of glTF hold it and its square."""
 _TOLERANCE = 0.01
 """Tolerance of a quaternion's squared length."""
 _Array = NDArray[np.float64]
@@ -82,7 +82,7 @@ class StateRecorder:
         try:
             self._file.write(data)
             self._file.flush()
-            self._path.stat()  # a deleted file accepts data and loses it
+            self._path.stat()  # a deleted file accepts data, which is then lost
         except OSError as error:
             with contextlib.suppress(OSError):  # the flush fails as the write did
                 self.close()
@@ -143,8 +143,8 @@ def read_state_log(file: Path | str) -> StateLog:
 
 
 def _are_states(rows: _Array, poses: _Array) -> NDArray[np.bool_]:
-    """Return per row if it can be the state of a world: bounded numbers, unit quaternions."""
-    bounded = (np.abs(rows) <= _LARGEST).all(axis=1)  # and so no NaN
+    """Return for each row whether it can be a state of a world: bounded numbers, unit quaternions."""
+    bounded = (np.abs(rows) <= _LARGEST).all(axis=1)  # False for NaN, too
     with np.errstate(invalid="ignore"):
         squares = np.square(np.clip(poses[:, :, 3:], -2.0, 2.0)).sum(axis=2)
     return bounded & (np.abs(squares - 1.0) < _TOLERANCE).all(axis=1)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from trundle.sim.physics import BackgroundCutting
 
 WORLD = "world"
-"""Name of the world as the parent of a joint."""
+"""Name that stands for the world as the parent of a joint."""
 _CONTROL = re.compile(r"[\x00-\x1f\x7f]")
 
 
@@ -46,7 +46,7 @@ def check_same_structure(world: World, edited: World) -> None:
         UsageError: the edited world has others.
     """
     if _structure(edited) != _structure(world):
-        raise UsageError("an edited world has other models, links or joints; spawn and delete change those")
+        raise UsageError("an edited world has other models, links or joints; use spawn and delete to change those")
 
 
 def _structure(world: World) -> list[tuple[str, list[str], list[str]]]:

@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     from trundle.sim.physics import BackgroundCutting
 
 _MAX_STRIDE = 1000
-"""Most steps of one stride; an unstable stride is rolled back to its beginning."""
+"""Maximum number of steps of one stride; an unstable stride is rolled back to its beginning."""
 Command: TypeAlias = Callable[["Simulation"], None]
 
 
@@ -91,7 +91,7 @@ class Simulation:
         self.lines: dict[str, DebugLine] = {}
         """Lines drawn by plugins, by `model::name`."""
         self.lines_are_shown = False
-        """True if a page shows the lines; until then plugins draw no expensive ones."""
+        """True if a page shows the lines; otherwise plugins skip expensive ones."""
         self.inputs = Inputs[Simulation](self)
         """Commands and callbacks that wait for the next step."""
         self.profiler: Profiler | None = None
@@ -202,7 +202,7 @@ class Simulation:
         self._drain()
 
     def set_step(self, step: int) -> None:
-        """Set the step of the engine's state, after it was computed elsewhere, such as on a GPU."""
+        """Set the step of the engine's state after the state was computed elsewhere, such as on a GPU."""
         self.steps = step
         self.loads.expire(step)
 

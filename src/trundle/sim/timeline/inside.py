@@ -20,7 +20,7 @@ _OUTSIDE = (
     *("ros.transport.", "ros.xmlrpc."),
     *("sim.gltf.", "sim.physics.", "sim.realtime_pacer.", "sim.render.", "sim.renderers.", "sim.timeline."),
 )
-"""Trundle's rooms whose objects are contents of files or devices, or have checkpoints."""
+"""Rooms of Trundle whose objects are contents of files, belong to devices, or have checkpoints."""
 _OUTSIDE_OF_PUBLIC = (Diagnostics, Struct, Diagnostic, Source, Contacts)
 """Classes of `trundle` itself, whose structs are immutable."""
 _CONTAINERS = ("builtins", "collections", "functools", "random", "types")
@@ -28,8 +28,8 @@ _LIBRARIES = ("mujoco", "lxml", "msgspec", "rosbags", "PIL", "aiohttp")
 
 
 def is_outside(obj: object) -> bool:
-    """True if no step of the simulation changes the object, or no restore could: modules, devices, threads, objects
-    of the standard library other than containers.
+    """True if no step of the simulation changes the object, or no restore could undo the change: modules, devices,
+    threads, objects of the standard library other than containers.
     """
     kind = type(obj)
     if isinstance(obj, Simulation):

@@ -30,7 +30,7 @@ class _Keyframe(Struct, frozen=True, eq=False):
     time_ns: int
     objects: SavedObjects
     commands: int
-    """Number of commands before it, since the timeline began."""
+    """Number of commands before this state, since the timeline began."""
     bytes: int
 
 
@@ -42,8 +42,8 @@ class _Recorded(Struct, frozen=True, eq=False):
 class Timeline:
     """Saved states and commands of a simulation; used between its steps only, on its thread.
 
-    After a `seek` the simulation repeats the recorded run, with its commands and messages from outside, until a new one
-    arrives or the recorded end is reached. A reset of time begins a new timeline.
+    After a `seek` the simulation repeats the recorded run, with its commands and messages from outside, until a new
+    command arrives or the recorded end is reached. A reset of time begins a new timeline.
     """
 
     def __init__(
@@ -69,7 +69,7 @@ class Timeline:
         self._keyframes: list[_Keyframe] = []
         self._commands: list[_Recorded] = []
         self._dropped = 0
-        """Number of commands before the first one."""
+        """Number of commands before the first recorded one."""
         self._next = 0
         """Index of the next command to repeat."""
         self._end_ns = 0

@@ -1,8 +1,8 @@
 """Contents of Python objects, restored in place.
 
-The state of plugins, controllers and sensors is in ordinary objects, which need no code for it. All objects reachable
-from some roots are saved: attributes, containers, arrays, random generators, variables of closures. Identities stay, so
-references lead to the old contents after a restore.
+The state of plugins, controllers and sensors is in ordinary objects; they need no code to save it. All objects
+reachable from some roots are saved: attributes, containers, arrays, random generators, variables of closures.
+Identities stay, so references lead to the old contents after a restore.
 """
 
 import random
@@ -46,7 +46,7 @@ class SavedObjects:
         """Bytes of arrays that were copied."""
         self.lost: set[type] = set()
         """Types of objects whose progress cannot be saved, such as generators."""
-        self._seen: dict[int, object] = {}  # holds the objects, so that no id is used twice
+        self._seen: dict[int, object] = {}  # keeps the objects alive, so that no id is used twice
         waiting = list(roots)
         while waiting:
             obj = waiting.pop()
@@ -137,7 +137,7 @@ class SavedObjects:
     def _save_cell(self, obj: CellType) -> Iterable[object]:
         try:
             contents = obj.cell_contents
-        except ValueError:  # empty so far
+        except ValueError:  # a closure's variable without a value
             return ()
         self._restores.append(partial(setattr, obj, "cell_contents", contents))
         return (contents,)

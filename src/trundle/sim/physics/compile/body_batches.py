@@ -13,7 +13,7 @@ _MANY = 250
 
 
 class BodyBatches:
-    """The first bodies of a world in its specification, the others in specifications of their own until attached."""
+    """The first bodies of a world are in its specification, the others in separate ones until `attach`."""
 
     def __init__(self, spec: mujoco.MjSpec) -> None:
         self._spec = spec
@@ -39,7 +39,7 @@ class BodyBatches:
         batch = mujoco.MjSpec()
         apply_settings(batch)
         batch.default.name = (
-            f"batch{len(self._frames)}"  # attached too; equal names of defaults would make invalid MJCF
+            f"batch{len(self._frames)}"  # defaults are attached, too; two of one name would make invalid MJCF
         )
         self._world = batch.worldbody
         self._frames.append(self._world.add_frame())

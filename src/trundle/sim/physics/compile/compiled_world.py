@@ -45,7 +45,7 @@ class CompiledWorld(Struct, frozen=True, eq=False):
     axis_effort: NDArray[np.float64]
     """Largest actuation [N·m or N]."""
     axis_velocity: NDArray[np.float64]
-    """Speed above which an effort no longer accelerates the axis [rad/s or m/s]."""
+    """Speed above which an effort does not accelerate the axis further [rad/s or m/s]."""
     axis_range: NDArray[np.float64]
     """(axes, 2) limits [rad or m]."""
     ball_joints: tuple[int, ...]
@@ -53,7 +53,7 @@ class CompiledWorld(Struct, frozen=True, eq=False):
     geom_collisions: tuple[str, ...]
     """`model::link::collision` of each geom."""
     initial_qpos: NDArray[np.float64] | None = None
-    """qpos at the start; None: as written."""
+    """qpos at the start; None: as written in the file."""
 
 
 def index_world(

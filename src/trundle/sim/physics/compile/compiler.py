@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 _MANY_BODIES = 400
 _BASE_BYTES, _PAIR_BYTES, _MOVING_BYTES = 64 * 2**20, 4, 512 * 2**10
-"""Memory for all worlds, for each pair of bodies, and for the contacts and constraints of a moving body."""
+"""Memory [bytes]: for any world, per pair of bodies, and for the contacts and constraints of a moving body."""
 _LARGE_BYTES = 2**30
 _KINEMATIC_MASS = 1e6
 """Mass factor of a kinematic link, which forces do not move noticeably."""
@@ -71,7 +71,7 @@ class Compiler:
         self.cuts_meshes = cut_meshes
         self._cutting = cutting
         self.decomposition: WorldDecomposition | None = None
-        """Mesh decomposition, once computed."""
+        """Mesh decomposition; None until it is computed."""
         self.world = world
         self.report = report
         self.spec = mujoco.MjSpec()

@@ -43,7 +43,7 @@ _UNCAPPED = 10.0
 _SHALLOW = 5e-5
 """Static depth [m] up to which a contact of capped correction is hard, with a tree's whole weight on one point."""
 _STIFFEST_HELD = 1.0
-"""The limit [1/h²] for pairs with a min_depth: up to it the contact yields as far as its stiffness allows."""
+"""As `_STIFFEST` [1/h²], for pairs with a min_depth: up to it the contact yields as far as its stiffness allows."""
 
 
 def is_soft(stiffness: float, inverse_mass: float, h: float, *, min_depth: float = 0.0) -> bool:
@@ -150,7 +150,7 @@ def _is_spring(params: ContactParams, inverse_mass: float, weight: float, h: flo
     """True if a pair is simulated as a spring; with a capped correction, if it has a min_depth or rests deep under a
     weight [N] on one point.
     """
-    points = params.points if params.points >= 1 else TREAD_POINTS  # as the tread's
+    points = params.points if params.points >= 1 else TREAD_POINTS  # as for the tread
     capped, limits = is_capped(params.max_vel), {"kp": params.kp, "kd": params.kd, "max_vel": params.max_vel}
     if capped and is_deep(weight, **limits, h=h, gravity=gravity):
         return True

@@ -25,18 +25,18 @@ from .solver_settings import SOLIMP, contact_solref, limit_solref, sliding_solre
 from .wheels import EDGE_POINTS
 
 MAX_PAIRS = 2000
-"""Most pairs of a fixed and a moving shape. Beyond, MuJoCo's broad phase finds contacts: a pair costs about 10 ns per
-step, in contact or not.
+"""Maximum number of pairs of a fixed and a moving shape. With more, MuJoCo's broad phase finds the contacts: a pair
+costs about 10 ns per step, in contact or not.
 """
 MAX_MOVING_PAIRS = 1000
-"""Most pairs of moving shapes; fewer, because these are rarely close to one another."""
+"""Maximum number of pairs of moving shapes; fewer, because these are rarely close to one another."""
 MAX_SOFT_PAIRS = 20_000
-"""Most pairs of soft shapes; beyond, they are simulated as hard."""
+"""Maximum number of pairs of soft shapes; with more, they are simulated as hard."""
 _BITS = 0x7FFFFFFF
 _TOUCHING = 1e-9
 """Margin of contacts [m]: a shape placed exactly on a floor is in contact from the first step on."""
 _NO_FORCE_DEPTH = 1e3
-"""Depth [m] beyond any penetration: contacts below it are detected without a force."""
+"""Depth [m] larger than any penetration; contacts less deep than it are detected without a force."""
 
 
 def add_contacts(
@@ -53,7 +53,8 @@ def add_contacts(
     solid = [shape for shape in moving if shape.collides_with & CollidesWith.MOVING]
     special = _needs_pairs(spec, shapes, models, tree, report)
     if len(fixed) * len(moving) > MAX_PAIRS:
-        # Planes, under most bodies, keep their pairs: only a pair's solreffriction keeps sliding bodies from hopping.
+        # Planes, on which most bodies stand, keep their pairs: only a pair's solreffriction keeps sliding bodies from
+        # hopping.
         searched = [shape for shape in fixed if shape.name not in special and shape.kind is CollidesWith.FIXED]
         searching = [
             shape for shape in moving if shape.name not in special and shape.collides_with & CollidesWith.FIXED

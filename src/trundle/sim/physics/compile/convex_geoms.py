@@ -19,8 +19,8 @@ _COARSEST = 2e-6
 """Smallest thickness relative to the distance from the mesh origin: MuJoCo stores vertices with 24 bits."""
 _FEW = 64
 _MANY = 4000
-"""Most hulls per specification. The time to add a geom grows with their number, so large sets are built in separate
-specifications and attached.
+"""Maximum number of hulls per specification. The time to add a geom grows with their number, so large sets are built
+in separate specifications and attached.
 """
 
 
@@ -43,7 +43,7 @@ def add_hulls(
         part_spec = mujoco.MjSpec()
         apply_settings(part_spec)
         frame = part_spec.worldbody.add_frame()
-        part_spec.default.name = f"{first}"  # attached along; a second default of one name would make invalid MJCF
+        part_spec.default.name = f"{first}"  # defaults are attached, too; two of one name would make invalid MJCF
         for i, corners in enumerate(pieces[first : first + _MANY], start=first):
             geoms.append(add_hull(part_spec, part_spec.worldbody, pose, f"{i}", corners))
             geoms[-1].set_frame(frame)

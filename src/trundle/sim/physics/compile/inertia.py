@@ -14,9 +14,9 @@ SMALLEST_MOMENT = 1e-9
 """Smallest principal moment [kg·m²]."""
 _ROUNDING = 1e-12
 _MARGIN = 1e-15
-"""Margin of a sum over a moment, relative to the moment, that survives rounding."""
+"""Margin by which the sum of two moments exceeds the third, relative to it, so that rounding does not undo it."""
 _MAX_RATIO = 10.0
-"""Largest difference of two moments over the third one; 1 in rigid bodies, and the gyroscopic torque grows with it."""
+"""Largest difference of two moments, divided by the third; 1 in rigid bodies; the gyroscopic torque grows with it."""
 
 
 def principal_inertia(link: Link, report: Diagnostics) -> tuple[float, Pose, tuple[float, float, float]]:
@@ -55,7 +55,7 @@ def principal_inertia(link: Link, report: Diagnostics) -> tuple[float, Pose, tup
 
 
 def possible_moments(moments: tuple[float, float, float]) -> tuple[float, float, float]:
-    """Return moments, ascending, that MuJoCo's compiler accepts: the two smaller are raised if they must be."""
+    """Return moments, ascending, that MuJoCo's compiler accepts: the two smaller are raised if necessary."""
     one, two, three = moments
     excess = three - (one + two)
     rise = excess / 2 * (1 + 1e-9) + _MARGIN * three if excess > 0.0 else 0.0
@@ -65,7 +65,7 @@ def possible_moments(moments: tuple[float, float, float]) -> tuple[float, float,
 def set_constants(model: mujoco.MjModel) -> None:
     """Compute the constants that depend on a model's masses and moments, as MuJoCo's compiler does."""
     mujoco.mj_setConst(model, mujoco.MjData(model))
-    if model.nv:  # the means scale the solver's tolerance; in MuJoCo's order of summation
+    if model.nv:  # the means scale the solver's tolerance; the sums are in MuJoCo's order
         model.stat.meaninertia = sum(model.dof_M0.tolist()) / model.nv
     if model.nbody > 1:
         model.stat.meanmass = sum(model.body_mass[1:].tolist()) / (model.nbody - 1)

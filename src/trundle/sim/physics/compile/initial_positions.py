@@ -118,7 +118,7 @@ def _angle_about(axis: Vector3, turn: Quaternion) -> float:
 
 
 def _first_axis_angle(axis: Vector3, inner: Vector3, turn: Quaternion) -> float:
-    """Return the angle of a joint's first axis [rad] from the direction to which it rotated the second."""
+    """Return the angle of a joint's first axis [rad], given the direction to which it has rotated the second axis."""
     rotated = rotate(turn, inner)
     across = cross(inner, rotated)
     along = dot(inner, rotated) - dot(axis, inner) * dot(axis, rotated)

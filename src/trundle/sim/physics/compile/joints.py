@@ -23,7 +23,7 @@ _NO_EFFORT = 1e-9
 _HARD_STOP = 1e8
 """SDF's default stiffness of a limit [N/m or N·m/rad]."""
 _PARALLEL = 0.9999
-"""Cosine of 0.8 degrees."""
+"""Cosine of 0.8°; two axes at a smaller angle count as parallel."""
 _PLANAR_SUFFIXES = ("::x", "::y")
 _TWO_HINGES = frozenset({JointType.UNIVERSAL, JointType.REVOLUTE2})
 
@@ -147,7 +147,7 @@ class JointBuilder:
         tie.solref, tie.solimp = equality_solref(self._spec.option.timestep), SOLIMP
 
     def weld(self, half: str, other: str, *, as_one: bool) -> None:
-        """Weld two halves of a link, in their pose with every joint at zero, or (`as_one`) at the identity."""
+        """Weld two halves of a link in their relative pose at zero joint positions, or (`as_one`) in the same pose."""
         weld = self._spec.add_equality(type=mujoco.mjtEq.mjEQ_WELD, name1=half, name2=other)
         weld.objtype = mujoco.mjtObj.mjOBJ_BODY
         weld.data = [0.0] * 6 + [float(as_one), 0.0, 0.0, 0.0, 1.0] + [0.0] * (len(weld.data) - 11)

@@ -67,7 +67,7 @@ def add_mesh(
         corners = mesh.vertices.astype(float)
         split = split_mesh(*_arrays(mesh), fixed=False) if not fixed or len(corners) > MAX_CORNERS else None
         if split is not None and len(split.corners) == 1 and not split.concave:
-            (corners,) = split.corners  # fewer for a very fine mesh
+            (corners,) = split.corners  # a subset, for a very fine mesh
         elif split is not None and split.concave and not fixed:
             mesh_text = f"a mesh of {len(mesh.faces)} triangles that is not convex; its pieces are"
             report.info(collision.at, f"collision {collision.name!r}: {mesh_text} not checked (check --collisions)")

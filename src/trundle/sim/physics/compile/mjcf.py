@@ -26,7 +26,7 @@ _VISUAL = 2
 _THINNEST = 1e-4
 """Smallest thickness of a visual [m]."""
 _FEWEST_VERTICES = 4
-"""Fewest vertices of a MuJoCo mesh."""
+"""Minimum number of vertices of a MuJoCo mesh."""
 PictureOf: TypeAlias = Callable[[Texture], str | None]
 """Returns the path of a texture as PNG, relative to the MJCF; None: not available."""
 

@@ -1,6 +1,6 @@
 """Compiler for a series of similar worlds: if only numbers differ, it writes them to a copy of the last model.
 
-These are masses, inertias along the same axes, damping and friction of joints, surfaces and gravity. The result
+The numbers are masses, inertias along the same axes, damping and friction of joints, surfaces and gravity. The result
 equals that of a full compile bit for bit, in a tenth of the time; every other change is a full compile.
 """
 
@@ -23,11 +23,11 @@ from .law_tables import has_row
 from .shape_entry import ShapeEntry
 
 _MAX_BASES = 8
-"""Most models kept, for worlds that differ in other ways, such as a few time steps."""
+"""Maximum number of models kept, for worlds that differ in more, such as in the time step."""
 
 
 class _NotNumbersError(Exception):
-    """Worlds that differ in more than numbers."""
+    """Raised for worlds that differ in more than numbers."""
 
 
 class _Base(Struct, frozen=True, eq=False):

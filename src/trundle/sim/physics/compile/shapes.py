@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 _CONE_SIDES = 32
 _MAX_CORNERS = 1000
-"""Most corners of a polyline; triangulation time grows with their cube."""
+"""Maximum number of corners of a polyline; the time of triangulation grows with its cube."""
 
 
 def add_shape(

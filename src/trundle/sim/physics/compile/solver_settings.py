@@ -8,7 +8,7 @@ import mujoco
 
 CONTACT_DAMPING_RATIO = 2.8
 """Damping ratio of hard contacts. With 1 a box bounces 25 to 35 mm after a drop of 1 m; with 2 it does not, but 19 mm
-after an impact at 10 m/s; with 2.8 not even then: it rises so slowly that gravity stops it.
+after an impact at 10 m/s; with 2.8 it does not bounce even then: it rises so slowly that gravity stops it.
 """
 _MANY = 6
 """Number of trees from which on the Jacobian is sparse."""
@@ -21,8 +21,8 @@ def contact_solref(h: float) -> tuple[float, float]:
 
 
 def limit_solref(h: float) -> tuple[float, float]:
-    """Return the solref of joint limits: stopped within one step, returned to the limit over two hundred, without a
-    bounce.
+    """Return the solref of joint limits: a joint stops within one step, and returns to the limit over two hundred,
+    without a bounce.
     """
     return (-1 / (h * h), -200 / h)
 
@@ -34,7 +34,7 @@ def friction_solref(h: float) -> tuple[float, float]:
 
 def equality_solref(h: float) -> tuple[float, float]:
     """Return the solref of mimic, gear and loop constraints, as stiff as a step can follow: a four-bar crank lags 4
-    mrad after 3 s; by (2 h, 1) it lags 0.13 rad.
+    mrad after 3 s; with (2 h, 1) it would lag 0.13 rad.
     """
     return (-1 / (h * h), -1 / h)
 

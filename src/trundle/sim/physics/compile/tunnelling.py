@@ -1,10 +1,10 @@
 """Tunnelling of small bodies through thin obstacles.
 
-An impact at speed v penetrates 1.8 v h, whatever is hit. Beyond the middle of a small body and of the obstacle, the
-contact pushes it out on the far side. MuJoCo's speculative contacts prevent that, but cost a robot 3 % of its speed,
-ten of them 14 % and a furnished house 25 %: only worlds that need them pay, and only while a body has at least half the
-critical speed (`cpp/contact/tunnelling.cc`), which leaves room for the acceleration of a step and for two moving
-bodies.
+An impact at speed v penetrates any obstacle by 1.8 v h. If this is beyond the middle of a small body and of the
+obstacle, the contact pushes the body out on the far side. MuJoCo's speculative contacts prevent that, but cost a robot
+3 % of its speed, ten of them 14 % and a furnished house 25 %: only worlds that need them pay, and only while a body
+has at least half the critical speed (`cpp/contact/tunnelling.cc`), which leaves room for the acceleration of a step
+and for two moving bodies.
 
 A thin shape next to a thicker one of the same body, such as a piece of a robot's casing, cannot tunnel alone: the
 thicker one is stopped.
@@ -20,7 +20,7 @@ from .law_tables import find_table
 from .shape_entry import CollidesWith, ShapeEntry
 
 _FASTEST = 15.0
-"""Speed after a fall of 11 m [m/s]; bodies that cannot tunnel at it are not checked at higher ones."""
+"""Speed after a fall of 11 m [m/s]; bodies that cannot tunnel at this speed are not checked at all."""
 _SLOWEST = 1e-9
 """Threshold speed [m/s] for shapes without thickness, which let every moving body through."""
 _DEEP = 1.8

@@ -23,7 +23,8 @@ _MANY = 4096
 def is_convex(points: _Points, faces: _Faces, vertices: _Points) -> bool:
     """True if the faces form a closed convex body.
 
-    Single faces may be flipped, as in many published meshes; with all of them flipped it is a room seen from inside.
+    Single faces may be flipped, as in many published meshes; if all are flipped, the mesh is a room seen from inside,
+    which is not convex.
 
     Args:
         points: (N, 3) [m].
@@ -47,7 +48,7 @@ def is_convex(points: _Points, faces: _Faces, vertices: _Points) -> bool:
 def _are_heights_within(dent: float, normals: _Points, offsets: _Points, vertices: _Points) -> bool:
     """True if the points lie on one side of each face, within a dent [m], and below at least one face."""
     step = -(-len(normals) // _FEW)
-    subset = slice(None, None, step)  # spread over the surface, as most dents are seen from many faces
+    subset = slice(None, None, step)  # faces all over the surface: most dents break the planes of many faces
     is_within, has_outside = _compare(
         dent, normals[subset], offsets[subset], lambda along: (along @ vertices.T).max(axis=1)
     )

@@ -16,7 +16,7 @@ from .shell_decomposition import shell_pieces
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
 MAX_FACES = 100_000
-"""Most faces of a mesh that is decomposed."""
+"""Maximum number of faces of a mesh that is decomposed."""
 _FULL: Mapping[str, object] = {
     "maxConvexHulls": 16,
     "resolution": 20_000,
@@ -32,9 +32,9 @@ _COARSE: Mapping[str, object] = {**_FULL, "maxConvexHulls": 8, "resolution": 5_0
 _NEAR = 0.01
 """Accepted surface error relative to the mesh size."""
 _FEW = 96
-"""Most faces of a thin mesh that is first tried with sheets, which take a hundredth of a second."""
+"""Maximum number of faces of a thin mesh for which sheets are tried first, which takes a hundredth of a second."""
 MAX_SHEETED = 20_000
-"""Most faces of a mesh that is tried with sheets."""
+"""Maximum number of faces of a mesh for which sheets are tried."""
 _THIN = 0.03
 """Largest half wall thickness, relative to the mesh size, at which sheets may beat voxels."""
 _SWEEPS = 4
@@ -60,8 +60,8 @@ def decompose(
 
 
 def _candidates(points: _Points, faces: _Faces, hull: Hull, closed: bool, coarse: bool) -> list[_Points]:
-    """Return the pieces with the smaller surface error; V-HACD's, which leave no cavity in a wall, unless sheets are
-    far better.
+    """Return the pieces with the smaller surface error; V-HACD's pieces, which leave no cavity in a wall, unless
+    sheets are far better.
     """
     size = float(np.ptp(points, axis=0).max())
     triangles = points[faces]
@@ -85,7 +85,7 @@ def is_thin(triangles: _Points, size: float) -> bool:
 
 
 def _voxels(points: _Points, faces: _Faces, size: float, *, closed: bool, coarse: bool) -> list[_Points]:
-    from vhacdx import compute_vhacd  # few worlds need it
+    from vhacdx import compute_vhacd  # imported here, as few worlds need it
 
     # V-HACD's grid suits bodies of about unit size.
     middle = points.mean(axis=0)

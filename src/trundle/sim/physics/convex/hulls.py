@@ -18,9 +18,9 @@ _TOUCH = 1e-9
 _FLAT = 1e-7
 """Thickness of a flat set, relative to its size or distance from the origin: MuJoCo stores vertices with 24 bits."""
 _FEW = 48
-"""Most triangles that are all tested exactly."""
+"""Maximum number of triangles up to which all are tested exactly."""
 _NEAREST = 8
-"""Nearest samples whose triangles are tested exactly."""
+"""Number of nearest samples whose triangles are tested exactly, in larger surfaces."""
 
 
 class Hull(Struct, frozen=True):

@@ -19,7 +19,7 @@ _WORKER_S = 0.5
 """Work that justifies one more process [s]."""
 _TICK_S = 0.2
 _Result: TypeAlias = tuple[ConcavePart, ConvexPieces | None] | None
-"""None: Ctrl-C ended a worker."""
+"""Results of the workers; None: Ctrl-C ended a worker."""
 
 
 def decompose_parts(

@@ -1,7 +1,7 @@
-"""Decomposition of a world's meshes before the compile: equal parts once, each cached on disk.
+"""Decomposition of a world's meshes before the compile: equal parts are decomposed once, and cached on disk.
 
-The level of detail of a part depends on an estimate of the time for it and for the parts before it in the file, never
-on a clock or on the cache: results repeat to the byte on slow and fast machines.
+The level of detail of a part depends on the estimated time for the part and those before it in the file, never on a
+clock or the cache: results repeat to the byte on slow and fast machines.
 """
 
 import hashlib

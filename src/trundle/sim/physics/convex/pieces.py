@@ -22,7 +22,7 @@ _HOLLOW = 0.05
 _FULL = 1.1
 """Ratio of the hull's volume to the mesh's up to which it replaces a concave mesh."""
 _MAX_FLAT = 2000
-"""Most faces of a flat mesh that is decomposed."""
+"""Maximum number of faces of a flat mesh that is decomposed."""
 
 
 class Detail(Enum):

@@ -1,4 +1,4 @@
-"""Fewer corners for convex meshes of many: MuJoCo's hull takes 20 µs for each, and each step searches them."""
+"""Fewer corners for convex meshes: MuJoCo's hull takes 20 µs for each corner, and each step searches the corners."""
 
 import numpy as np
 from msgspec import Struct
@@ -18,7 +18,7 @@ _TOLERANCE = 2.5e-4
 _DIRECTIONS = 10_000
 """Directions along which the first corners are the highest."""
 _STARTS = 512
-"""Corners that are compared; the climb to the highest starts at the best."""
+"""Number of corners that are compared first; the climb to the highest corner starts at the best of them."""
 
 
 class SimplifiedMesh(Struct, frozen=True):
@@ -43,13 +43,13 @@ def simplify(points: _Points, faces: _Faces) -> SimplifiedMesh | None:
     corners, faces = points[used_points(faces)], renumbered(faces)
     centred = corners - (corners.min(axis=0) + corners.max(axis=0)) / 2
     covariance = np.cov(centred.T)
-    # Rounded, and without BLAS: its last bits differ between processors, and a ball's axes are any.
+    # Rounded, and without BLAS, whose last bits differ between processors: the principal axes of a ball are arbitrary.
     axes = np.linalg.eigh(np.round(covariance / np.abs(covariance).max(), 6))[1]
     along = sum(centred[:, i, None] * np.round(axes[i], 6) for i in range(3))
     extents = np.ptp(along, axis=0)
     if not extents.all():
         return None
-    shape = along / extents  # of extents 1, as the hull of scaled points is the scaled hull
+    shape = along / extents  # scaled to extents 1; the hull of scaled points is the scaled hull
     graph = SupportGraph(shape, faces)
     kept = np.unique(highest(graph, shape, _spread_directions(_DIRECTIONS)))
     while (hull := hull_of(shape[kept])) is not None:

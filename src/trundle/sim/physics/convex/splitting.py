@@ -21,13 +21,13 @@ from .simplification import MAX_CORNERS, simplify
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
 MAX_PIECES = 1000
-"""Most pieces of a moving mesh; beyond, it becomes one hull."""
+"""Maximum number of pieces of a moving mesh; with more, it becomes one hull."""
 MAX_SLABS = 50_000
-"""Most slabs of all fixed meshes of a world; beyond, a mesh of more than 1000 becomes one hull."""
+"""Maximum number of slabs of all fixed meshes of a world; with more, each mesh of over 1000 slabs becomes one hull."""
 _CLOSE = 0.02
 """Distance of the hull [m] up to which it replaces a fixed mesh of over 1000 slabs."""
 _MAX_CUT = 8
-"""Most parts of a mesh that are decomposed, largest first."""
+"""Maximum number of parts of a mesh that are decomposed, largest first."""
 
 
 class MeshSplit(Struct, frozen=True):

@@ -15,7 +15,7 @@ _DIE_WITH_PARENT = 1
 def main() -> None:
     """Read parts from stdin and write their pieces to stdout."""
     if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
-        signal.signal(signal.SIGINT, signal.SIG_DFL)  # V-HACD does not return to Python before it is done
+        signal.signal(signal.SIGINT, signal.SIG_DFL)  # at once: V-HACD returns to Python only at its end
     if sys.platform == "linux":
         import ctypes
 

@@ -86,7 +86,7 @@ class Batch:
         return qvel * self._compiled.axis_sign[chosen]
 
     def step(self, count: int, *, chosen: NDArray[np.bool_] | None = None) -> None:
-        """Step every row, or those that `chosen` (rows,) has, and compute their poses and twists; with the GIL
+        """Step every row, or those marked in `chosen` (rows,), and compute their poses and twists, with the GIL
         released.
         """
         self._stepper.step(

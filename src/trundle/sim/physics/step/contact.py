@@ -89,7 +89,7 @@ class Contacts(Sequence[Contact]):
         return self.select([i for i, pair in enumerate(self.collisions) if not collisions.isdisjoint(pair)])
 
     def __add__(self, others: "Contacts") -> "Contacts":
-        """Return both sequences, in order; they must be of the same world."""
+        """Return these contacts followed by others of the same world."""
         return Contacts(self._geom_collisions, np.concatenate([self.rows, others.rows])) if others else self
 
     def select(self, chosen: Sequence[int]) -> "Contacts":

@@ -15,7 +15,7 @@ _AWAKE = int(mujoco.mjtSleepState.mjS_AWAKE)
 
 
 class ContactQuery:
-    """Contact lookup; MuJoCo keeps no contacts of sleeping bodies, so these are computed separately and cached."""
+    """Lookup of contacts; MuJoCo keeps none of sleeping bodies, so those are computed separately and cached."""
 
     def __init__(self, compiled: CompiledWorld, data: mujoco.MjData, scratch: ScratchEngine) -> None:
         self._compiled = compiled

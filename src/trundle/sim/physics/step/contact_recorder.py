@@ -23,7 +23,7 @@ class ContactRecorder:
         self._compiled: CompiledWorld | None = None
         self._native: _contact_laws.ContactRecorder | None = None
         self._earlier: list[tuple[list[int], Contacts]] = []
-        """Times [ns] and contacts from before models were spawned, deleted or edited."""
+        """Times [ns] and contacts that were recorded before models were last spawned, deleted or edited."""
 
     def bind(self, compiled: CompiledWorld) -> _contact_laws.ContactRecorder:
         """Return the recorder of the geoms of a compiled world."""
@@ -36,7 +36,7 @@ class ContactRecorder:
         return self._native
 
     def pop(self, *, after_ns: int | Fraction, until_ns: int) -> list[tuple[list[int], Contacts]]:
-        """Return times [ns] and contacts, as many of both, recorded within these times; clear the record."""
+        """Return times [ns] and contacts, a time for each contact, within the given interval; clear the record."""
         records, self._earlier = self._all(), []
         if records[:1] and not after_ns < records[0][0][0] <= records[-1][0][-1] <= until_ns:
             records = [_within(times_ns, contacts, after_ns, until_ns) for times_ns, contacts in records]

@@ -31,7 +31,7 @@ from .state_writer import StateWriter
 from .step_timer import StepTimer
 from .stepper import StepHooks, Stepper
 
-if TYPE_CHECKING:  # single worlds without belts do not import these
+if TYPE_CHECKING:  # a single world without belts does not import these
     from .batch import Batch, WorldRow
     from .surface_motion import LinkGrip
 
@@ -63,7 +63,7 @@ class EngineState(Struct, frozen=True, eq=False):
 
     compiled: CompiledWorld
     data: mujoco.MjData
-    """Copy of the data: no state vector holds which trees sleep."""
+    """Copy of the data, as the state vector does not hold which trees sleep."""
     steps: int
     sleeps: bool
     has_state_only: bool

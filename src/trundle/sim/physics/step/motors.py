@@ -83,7 +83,7 @@ class Motors:
         self._rates = find_table(model, "motors")[:, 1]
         self._motor_dofs = find_table(model, "motors")[:, 3].astype(np.intp)
         self._sleeping_efforts: tuple[bytes, NDArray[np.float64]] = (b"", np.empty(0))
-        """Degrees of freedom and positions of sleeping motors, and the efforts (nv,) of all."""
+        """Cache: degrees of freedom and positions of sleeping motors, and the efforts (nv,) of all motors."""
         self._active: tuple[NDArray[np.intp], NDArray[np.int32], NDArray[np.int32]]
         """Degrees of freedom of active motors, their trees, and their addresses in qpos."""
         self._switches = -1

@@ -53,7 +53,7 @@ def separate(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float64]:
         if not np.isfinite(moved.qpos).all():
             return data.qpos.copy()
         acting = (moved.contact.efc_address >= 0) & (moved.contact.solref[:, 0] > 0.0)
-        if float(_depths(moved)[acting].max(initial=0.0)) < _ENOUGH:  # contacts from before that step
+        if float(_depths(moved)[acting].max(initial=0.0)) < _ENOUGH:  # the contacts are those from before that step
             break
     return moved.qpos.copy()
 

@@ -37,7 +37,7 @@ class SleepPolicy:
         self.has_state_only = True
         """True if the data holds only a state, without results of a step such as contacts."""
         model.opt.sleep_tolerance = TOLERANCE
-        # MuJoCo scales angular speeds by the size of the moved shapes, which is zero for a link without any.
+        # MuJoCo scales angular speeds by the size of the moved shapes, which is zero for a link without shapes.
         model.dof_length[:] = 1.0
         model.tree_sleep_policy[:] = int(mujoco.mjtSleepPolicy.mjSLEEP_ALLOWED)
         # One link that must not sleep keeps its whole tree awake.
@@ -72,7 +72,7 @@ class SleepPolicy:
             if self._all_sleep():
                 times = np.empty(count + 1)
                 times[0], times[1:] = data.time, model.opt.timestep
-                data.time = np.add.accumulate(times)[-1]  # one by one, as MuJoCo: equal to the bit
+                data.time = np.add.accumulate(times)[-1]  # one by one, as in MuJoCo: equal to the bit
                 data.qfrc_actuator[:] = efforts
                 return True
         mujoco.mj_step(model, data, nstep=count)

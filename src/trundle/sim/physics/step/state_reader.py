@@ -29,13 +29,13 @@ class StateReader:
         """Cached results for the current state."""
 
     def set_state(self, qpos: NDArray[np.float64], qvel: NDArray[np.float64]) -> None:
-        """Set positions and velocities of one time; time and forces stay."""
+        """Set positions and velocities of the same time; time and forces stay."""
         self._data.qpos[:] = qpos
         self._velocities.set_velocities(qvel)
         self.invalidate()
 
     def state(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return copies of positions and velocities of one time, as `set_state` takes them."""
+        """Return copies of positions and velocities of the same time, as `set_state` takes them."""
         return self._data.qpos.copy(), self._velocities.read()
 
     def invalidate(self) -> None:
@@ -96,11 +96,11 @@ class StateReader:
         return positions * self._compiled.axis_sign
 
     def by_axis(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return (axes,) velocities or efforts, from those of all degrees of freedom."""
+        """Return the (axes,) entries of an array (nv,) of velocities or efforts."""
         return values[self._compiled.axis_dof] * self._compiled.axis_sign
 
     def positions_of(self, axes: range) -> list[float]:
-        """Return the positions of a joint's axes [rad or m], in a twentieth of the time of all."""
+        """Return the positions of a joint's axes [rad or m]; takes a twentieth of the time of `positions`."""
         qpos, addresses, signs = self._data.qpos, self._qpos_addresses, self._signs
         if axes.start in self._ball_starts:
             return (_rotation_vector(qpos, addresses[axes.start]) * signs[axes.start]).tolist()

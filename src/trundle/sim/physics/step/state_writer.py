@@ -84,7 +84,7 @@ class StateWriter:
         self._changed()
 
     def _move_followers(self, joint: int) -> None:
-        """Set the positions of the joints that follow one, by their constraints."""
+        """Set the positions of the joints whose constraints make them follow a joint."""
         model, qpos = self._model, self._data.qpos
         for leader, follower, offset, ratio in self._followers.get(joint, ()):
             source, target = model.jnt_qposadr[[leader, follower]]
@@ -92,7 +92,7 @@ class StateWriter:
             qpos[target] = model.qpos0[target] + offset + ratio * (qpos[source] - model.qpos0[source])
 
     def _speed_up_followers(self, joint: int) -> None:
-        """Set the velocities of the joints that follow one."""
+        """Set the velocities of the joints that follow a joint."""
         for leader, follower, _, ratio in self._followers.get(joint, ()):
             dof = int(self._model.jnt_dofadr[follower])
             self._velocities.synchronize(dof)
@@ -169,7 +169,7 @@ def _find_followers(model: mujoco.MjModel) -> dict[int, list[tuple[int, int, flo
     followers: dict[int, list[tuple[int, int, float, float]]] = {}
     for first in ties:
         reached, chain = {first}, list(ties[first])
-        for tie in chain:  # grows
+        for tie in chain:  # the list grows as followers of followers are found
             if tie[1] not in reached:
                 reached.add(tie[1])
                 chain += ties.get(tie[1], [])

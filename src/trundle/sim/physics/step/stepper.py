@@ -26,7 +26,7 @@ class StepHooks(Struct, frozen=True, eq=False):
     """[ns]"""
     recorders: Sequence[ContactRecorder] = ()
     actions: Sequence[StepAction] = ()
-    """Actions before each step but the first, before which they have acted already."""
+    """Actions before each step; before the first step they have acted already."""
 
     @property
     def is_empty(self) -> bool:

@@ -19,8 +19,8 @@ class CameraImage(Struct, frozen=True, eq=False, kw_only=True):
     rgb: NDArray[np.uint8]
     """(height, width, 3)"""
     depth: NDArray[np.float32] | None
-    """(height, width) Depth along the view axis [m]; infinite in the background. None for a wide-angle camera, which
-    has no such axis.
+    """(height, width) Depth along the view axis [m]; infinite in the background. None for a wide-angle camera, whose
+    image has no such depth.
     """
     segmentation: NDArray[np.int32]
     """(height, width) Index into `names` of the visual at a pixel; −1, its last entry, in the background."""

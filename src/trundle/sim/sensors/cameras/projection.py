@@ -19,7 +19,7 @@ _STILL = 1e-9
 _CLOSE = 1e-5
 """Accepted residual of the inverse [m at 1 m depth]: a hundredth of a pixel for most cameras."""
 _STEEPEST = math.tan(math.radians(85.0))
-"""Largest slope from the axis of a rendered pinhole image."""
+"""Largest slope of a ray from the axis in a rendered pinhole image."""
 _MAX_PX = 1 << 25
 _MAX_ALONG = 8190
 """Largest distance from the image centre to its border [px]."""
@@ -121,7 +121,7 @@ class WideAngleProjection:
         return self._remap.compose(pictures)
 
     def slopes(self) -> tuple[_Array, _Array]:
-        """Undefined: a wide-angle ray may have no slope."""
+        """Raise: a wide-angle ray may have no slope."""
         raise AssertionError("depths are seen through pinholes only")
 
 

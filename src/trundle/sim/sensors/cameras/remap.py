@@ -22,7 +22,7 @@ class Remap:
         Args:
             faces: camera_from_face and intrinsics of views of one size; unused ones are dropped.
             directions: (height, width, 3) ray of each pixel in the camera frame.
-            is_valid: (height, width) mask of valid pixels; others are black, infinitely far and show no shape.
+            is_valid: (height, width) mask of valid pixels; invalid pixels are black, infinitely far and show no shape.
         """
         in_faces = np.stack([rotate_vectors(pose.inverse(), directions) for pose, _ in faces])
         nearest = np.argmax(in_faces[..., 0], axis=0)

@@ -32,11 +32,11 @@ class RenderRequest(Struct, eq=False):
     depth: bool
     segmentation: bool
     camera: object
-    """Requesting hook."""
+    """Hook that requests the views."""
     batch: list["RenderRequest"]
-    """Requests rendered together on the first fetch; empty afterwards."""
+    """Requests that the first fetch renders together; empty afterwards."""
     pictures: list[Picture] | None = None
-    """None until rendered."""
+    """Images of the views; None until rendered."""
 
 
 class CameraScene:

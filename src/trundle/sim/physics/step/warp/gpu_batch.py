@@ -12,7 +12,7 @@ from .stepper import GpuStepper
 
 
 class GpuBatch(Batch):
-    """Rows of one world in single precision; as `Batch`, but not equal to it to the bit."""
+    """Rows of one world in single precision; as `Batch`, but its numbers are not equal to the bit."""
 
     def __init__(
         self, compiled: CompiledWorld, rows: int, threads: int, *, actuated: bool, max_speed: float, device: str

@@ -9,7 +9,7 @@ import warp as wp
 _TENDON = wp.constant(int(mujoco.mjtConstraint.mjCNSTR_FRICTION_TENDON))
 _LIMIT = wp.constant(int(mujoco.mjtConstraint.mjCNSTR_LIMIT_JOINT))
 _BEYOND = wp.constant(1e-7)
-"""Distance [rad or m] by which a limit is passed, so that its own constraint holds from then on."""
+"""Distance [rad or m] past a limit at which a joint is stopped, so that MuJoCo's constraint holds it from then on."""
 
 
 @wp.kernel(enable_backward=False)

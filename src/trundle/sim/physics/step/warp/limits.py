@@ -9,13 +9,13 @@ from ...compile.compiled_world import CompiledWorld
 from ...compile.law_tables import find_table, restore_springs
 
 _MAX_NAMES = 3
-"""Most names in a sentence."""
+"""Maximum number of names in a sentence."""
 _MARGIN = 1e-5
 """Smallest distance of a contact [m]; single precision resolves 4 µm at 50 m."""
 
 
 def gpu_limits(compiled: CompiledWorld) -> list[str]:
-    """Return the reasons why a GPU cannot step a world, a sentence each; empty: it can."""
+    """Return the reasons why a GPU cannot step a world, a sentence each; none if it can."""
     return list(_limits(compiled))
 
 

@@ -1,6 +1,6 @@
-"""Sliding that does not lift, on a GPU, as in `cpp/contact/contact_offset.cc`.
+"""Correction of sliding contacts on a GPU, as in `cpp/contact/contact_offset.cc`.
 
-While a contact slides, its friction rows miss their references, and the cone of friction lifts it by μ times that.
+While a contact slides, its friction rows miss their references, and the friction cone lifts it by μ times the error.
 Warp compiles these functions when they first run.
 """
 
@@ -14,11 +14,11 @@ from ...compile.law_tables import find_table
 
 _ELLIPTIC = wp.constant(int(mujoco.mjtConstraint.mjCNSTR_CONTACT_ELLIPTIC))
 _MIN_JUMP = wp.constant(0.01)
-"""Change of a motor's target that counts [rad/s or m/s]."""
+"""Smallest change of a motor's target that counts [rad/s or m/s]."""
 _MIN_ROW_JUMP = wp.constant(0.02)
-"""Change of a contact's tangential velocity in one step that counts [m/s]."""
+"""Smallest change of a contact's tangential velocity in one step that counts [m/s]."""
 _MIN_SPEED = wp.constant(1e-6)
-"""Speed of sliding that counts [m/s]."""
+"""Smallest speed of sliding that counts [m/s]."""
 
 
 @wp.struct

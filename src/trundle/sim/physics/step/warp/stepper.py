@@ -20,7 +20,7 @@ _Array = NDArray[np.float64]
 _CONTACTS_PER_PAIR, _MAX_CONTACTS = 8, 256
 _ROWS_PER_CONTACT = 3
 _SPARE_CONTACTS = 4096
-"""Contacts shared by all worlds, so that a crowded one takes no other's."""
+"""Memory for contacts, which all worlds share: large enough that a crowded world takes none from the others."""
 _OVERFLOWS = ("NEFC", "NJMAX_NNZ", "BROADPHASE", "NARROWPHASE", "CCD", "HFIELD", "EPA_HORIZON")
 
 
