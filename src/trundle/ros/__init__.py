@@ -1,11 +1,11 @@
-"""ROS 1: the graph with its master, parameters, topics, services, tf and messages, and what programs import of ROS.
+"""ROS 1: the graph with its master, parameters, topics, services, tf and messages; the Python packages of ROS.
 
 Names are imported on first use, so that commands that only call the master import neither asyncio nor numpy.
 """
 
 
 def __getattr__(name: str) -> object:
-    """Names of the stub; the loader itself is imported late, as every Python process of a user passes here."""
+    """Names of the stub; the loader is imported late, because every Python process of a user imports this module."""
     import lazy_loader
 
     get, names, every = lazy_loader.attach_stub(__name__, __file__)

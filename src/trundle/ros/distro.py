@@ -1,6 +1,6 @@
 """Differences between ROS distributions: one table, chosen by `--distro` or by a running master's /rosdistro.
 
-Each distribution is described as of its last release. The cited changelogs are at
+The values are those of each distribution's last release. The cited changelogs are at
 https://docs.ros.org/en/DISTRO/changelogs/PACKAGE/changelog.html.
 """
 

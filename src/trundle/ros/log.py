@@ -17,7 +17,9 @@ _lock = threading.Lock()
 
 
 def print_log(level: Level, text: str, *, wall_ns: int, sim_ns: int | None, quiet: TextIO | None = None) -> None:
-    """Write a line as rospy does: `[INFO] [wall time, simulated time]: text`; info and below to `quiet`, if given."""
+    """Write a line like rospy's `[INFO] [wall time, simulated time]: text`; levels up to info go to `quiet`, if
+    given.
+    """
     stamp = f"{wall_ns / 1e9:.6f}" if sim_ns is None else f"{wall_ns / 1e9:.6f}, {sim_ns / 1e9:.6f}"
     line = f"{_WIDTHS[level]} [{stamp}]: {text}"
     stream = sys.stderr if quiet is None or LEVELS[level] > LEVELS["info"] else quiet

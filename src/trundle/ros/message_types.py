@@ -1,1 +1,1 @@
-"""ROS messages by package, for annotations alone: the types are in message_types.pyi."""
+"""ROS messages by package, only for annotations: message_types.pyi has the types."""

@@ -9,7 +9,7 @@ from ..errors import RosError
 
 
 class BagError(RosError):
-    """A file that is not a bag, is damaged, or cannot be written."""
+    """A file that is no bag, is damaged, or cannot be written."""
 
 
 def recording_failure(path: Path, error: OSError) -> str:
@@ -109,7 +109,7 @@ class BagWriter(Protocol):
 
     @property
     def size(self) -> int:
-        """Approximate file size if closed now [bytes]."""
+        """Approximate file size if the bag were closed now [bytes]."""
         ...
 
     def close(self) -> None:

@@ -19,13 +19,15 @@ from ..messages.message_library import Messages
 from .bag import BagConnection, BagError, BagMessage, Chunk, ConnectionFilter, UnindexedBagError
 
 _MAGIC = b"\x89MCAP0\r\n"
-"""Start of a file, and its end unless recording was interrupted."""
+"""Bytes at the start of a file, and at its end unless recording was interrupted."""
 _MAX_RECORD_BYTES = 2**30
 """Maximum record length [bytes]."""
 _END_NS = 2**63
 """Upper limit of times [ns], in the year 2262."""
 _INDEX_HEAD = struct.Struct("<BQHI")
-"""Opcode and length of a message index, its channel, the length of its entries: time [ns] and offset, 8 bytes each."""
+"""Head of a message index: opcode, length, channel, length of the entries; an entry is a time [ns] and an offset, as
+u64.
+"""
 
 
 class McapReader:
@@ -158,7 +160,7 @@ class McapWriter:
 
     def abandon(self) -> None:
         """Close the file without an index."""
-        with contextlib.suppress(OSError):  # buffered data that failed before fails again
+        with contextlib.suppress(OSError):  # buffered data that could not be written before fails again
             self._file.close()
 
     def __enter__(self) -> Self:
@@ -214,7 +216,7 @@ def _connection(path: Path, channel: Channel, schema: Schema | None) -> BagConne
         raise BagError(f"{path}: {channel.topic} carries {channel.message_encoding} messages; only ros1 is supported")
     type_name, definition = schema.name, schema.data.decode("utf-8", "replace")
     md5sum = channel.metadata.get("md5sum", "")
-    if not md5sum:  # optional in MCAP, but required in connection headers
+    if not md5sum:  # MCAP may omit these fields, which connection headers require
         messages = Messages()
         messages.add_definition(type_name, definition)
         md5sum = messages.md5(type_name)

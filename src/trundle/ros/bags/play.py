@@ -15,7 +15,7 @@ from .bag import BagConnection, BagMessage, BagReader
 
 _HEADER_FIRST = re.compile(r"(\s|#.*\n)*(std_msgs/)?Header\s")
 _SLEEP_S = 0.05
-"""Maximum delay of pausing and key presses."""
+"""Maximum delay of the reaction to pausing and key presses [s]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,16 +29,16 @@ class PlayerOptions:
     topics: frozenset[str] = frozenset()
     """Topics to play; empty: all."""
     pause_topics: frozenset[str] = frozenset()
-    """Topics before whose messages playback pauses."""
+    """Topics of which each message pauses playback before it is published."""
     prefix: str = ""
     """Prepended to each topic as written: `foo` turns /scan into /foo/scan, and scan into fooscan."""
     clock_hz: float | None = None
-    """Rate of /clock in wall time."""
+    """Rate of /clock in wall time [Hz]."""
     immediate: bool = False
     queue_size: int = 100
     """Queue size per publisher; 0: unlimited."""
     skip_empty_s: float | None = None
-    """Gaps without messages longer than this are skipped [s]."""
+    """Longer gaps between messages are skipped [s]."""
     rate_control_topic: str | None = None
     """Playback waits for the header stamps of this topic."""
     rate_control_s: float = 1.0
@@ -54,7 +54,7 @@ class Player:
         self._options = options
         self._publishers: dict[BagConnection, Publisher] = {}
         self._latched: dict[Publisher, dict[str, bytes]] = {}
-        """Latched messages of a topic, by the node that published them when recorded."""
+        """Latched messages of a topic, by the node that published them during the recording."""
         self._clock: Publisher | None = None
         self._clock_due_s = 0.0
         self._pace = _PlaybackClock(options.rate, 0)
@@ -157,7 +157,7 @@ class Player:
         time.sleep(min(max_s, due_s, _SLEEP_S))
 
     def _tick(self, *, at_once: bool = False) -> None:
-        """Publish /clock if due, or always with `at_once`."""
+        """Publish /clock if it is due, or with `at_once` in any case."""
         if self._clock is None or not (at_once or time.monotonic() >= self._clock_due_s):
             return
         assert self._options.clock_hz is not None

@@ -21,7 +21,7 @@ from .bag import BagConnection, BagMessage, BagWriter, recording_failure
 from .files import create_bag, lock_bag
 
 _FLUSH_S = 1.0
-"""Flush interval: the maximum loss at SIGKILL."""
+"""Interval between flushes [s]; SIGKILL loses at most the messages of this time."""
 _LIMIT_POLL_S = 0.25
 """Poll interval of time limits while no messages arrive."""
 _POLL_S = 0.5
@@ -57,7 +57,7 @@ class RecorderOptions:
     splits: bool = False
     max_bytes: int = 0
     max_ns: int = 0
-    """Size and duration after which the next file starts if `splits`, else recording stops; 0: unlimited."""
+    """Size and duration at which the next file begins if `splits`, else recording stops; 0: unlimited."""
     max_splits: int = 0
     """Files to keep; 0: all."""
     tcp_nodelay: bool = False
@@ -238,7 +238,7 @@ class Recorder:
             self._warned_s = time.monotonic()
             self._node.log.warn("rosbag record buffer exceeded.  Dropping oldest queued message.")
 
-    # in the writer thread
+    # -- in the writer thread
 
     def _write_all(self) -> None:
         try:
@@ -290,7 +290,7 @@ class Recorder:
 
     def _next_file_if_due(self, stamp_ns: int, *, by_size: bool) -> None:
         options = self._options
-        self._start_ns = self._start_ns or stamp_ns  # simulated time may have started only now
+        self._start_ns = self._start_ns or stamp_ns  # simulated time may begin only now
         is_long = 0 < options.max_ns < stamp_ns - self._start_ns
         is_large = by_size and options.max_bytes and self._writer.size > options.max_bytes
         if not (is_long or is_large):

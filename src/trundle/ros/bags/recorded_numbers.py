@@ -17,7 +17,7 @@ _Array = NDArray[np.float64]
 TF_TYPES = ("tf2_msgs/TFMessage", "tf/tfMessage")
 _LEFT_OUT = ("rosgraph_msgs/Log", "rosgraph_msgs/Clock")
 _MAX_NUMBERS = 4_000_000
-"""Limit of a layout's numbers; of longer recordings every second message is read, or fewer."""
+"""Maximum number of numbers of a layout; of longer recordings only every second, third, … message is read."""
 _SHORTEST = 1e-9
 
 
@@ -50,7 +50,7 @@ class RecordedTopic(Struct, frozen=True, kw_only=True):
     type: str
     count: int
     fault: str | None
-    """Reason why its numbers were not read; None: they were."""
+    """Reason why the topic's numbers were not read; None: they were read."""
 
 
 class RecordedNumbers(Struct, frozen=True, eq=False, kw_only=True):
@@ -116,7 +116,7 @@ def read_numbers(bag: BagReader) -> RecordedNumbers:
 
 
 def message_time(message: Any, received_ns: int) -> float:
-    """Return the stamp of a message's header [s], or the time of its arrival where there is none."""
+    """Return the stamp of a message's header [s], or the time of its arrival if it has no header."""
     stamp = getattr(getattr(message, "header", None), "stamp", None)
     stamp_ns = 0 if stamp is None else stamp.sec * 10**9 + stamp.nanosec
     return (stamp_ns or received_ns) / 1e9
@@ -180,7 +180,7 @@ class _Frames:
 
 
 def _in_order(times: "array[float]") -> tuple[NDArray[np.intp], _Array]:
-    """Return the order of ascending times, the last of each time alone, and these times."""
+    """Return the indices that sort the times, only the last one of equal times, and the sorted times."""
     found = np.array(times)
     order = np.argsort(found, kind="stable")
     is_last = np.append(np.diff(found[order]) > 0.0, True)

@@ -133,7 +133,7 @@ _PADDING_AT = 13 + 4 + 69
 """Offset of the bag header's padding length: after the magic line and the fixed-size header."""
 _PADDING = 4096 - 69
 _MISSING_PADDING = 8
-"""`rosbag reindex` expects 4096 bytes without the two lengths; rosbags pads to 4096 with them."""
+"""`rosbag reindex` expects 4096 bytes in addition to two length fields; rosbags pads to 4096 bytes including them."""
 
 
 class _FlushingWriter(Writer):
@@ -156,7 +156,7 @@ class _FlushingWriter(Writer):
     def abandon(self) -> None:
         """Close the file without an index."""
         if self.bio is not None:
-            with contextlib.suppress(OSError):  # buffered data that failed before fails again
+            with contextlib.suppress(OSError):  # buffered data that could not be written before fails again
                 self.bio.close()
 
     def write_chunk(self, chunk: WriteChunk) -> None:

@@ -14,7 +14,7 @@ from .scan import BoundedFile, TruncatedError, operation, read_head
 _DEFINITION, _MESSAGE, _FILE_HEADER = 1, 2, 3
 
 _Entry = tuple[int, BagConnection, int, int]
-"""Stamp [ns], connection, offset and length of the data [bytes]."""
+"""A message: stamp [ns], connection, offset and length of the data [bytes]."""
 
 
 class RosrecordReader:

@@ -11,7 +11,7 @@ from .files import create_bag, lock_bag
 
 _NAME = "/record"
 _WALL_TIME_TOPICS = ("/rosout", "/rosout_agg")
-"""Excluded topics: their messages at node start have wall time."""
+"""Topics that are left out: their messages at the start of nodes have wall time."""
 
 
 class StepRecorder:
@@ -19,7 +19,7 @@ class StepRecorder:
 
     is_raw = True
     needs_every_message = False
-    """Publishers do not publish more often for the recorder."""
+    """False: publishers do not publish more often for the recorder."""
 
     def __init__(
         self,
@@ -116,7 +116,7 @@ class StepRecorder:
             publisher.detach(self)
 
     def _attach_all(self) -> None:
-        """Attach to the publishers that there are; on the loop."""
+        """Attach to the existing publishers; on the loop."""
         for publisher in list(self._local.publishers):
             self._attach(publisher)
 

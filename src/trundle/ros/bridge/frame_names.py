@@ -41,12 +41,12 @@ class FrameNames:
 
     @classmethod
     def from_world(cls, world: World, robot: Robot | None = None) -> Self:
-        """Names for `trundle run`, of its world or of the single robot in it."""
+        """Names for `trundle run`: of a world, or of a single robot."""
         return cls(plain=_has_plain_frames(world), lumped=_links_of(robot))
 
     @classmethod
     def from_robot(cls, robot: Robot) -> Self:
-        """Names for a launch with one URDF, whose frames robot_state_publisher broadcasts."""
+        """Names for a launch with one URDF, for which robot_state_publisher broadcasts the frames."""
         return cls(plain=True, lumped=_links_of(robot))
 
     def link(self, model: Model, link: str) -> str:
@@ -56,8 +56,8 @@ class FrameNames:
     def sensor(self, model: Model, parent: str, sensor: Sensor, *, rest: str = "") -> str:
         """Frame of a sensor, distinct from the frames of other sensors and of links.
 
-        It has the link or joint as a prefix if several sensors of the model have the same name, and the suffix
-        `_sensor` if a link has it.
+        If several sensors of the model have the same name, the link or joint is its prefix; if a link has the same
+        name, its suffix is `_sensor`.
 
         Args:
             model: model of the sensor.
@@ -85,7 +85,7 @@ def _links_of(robot: Robot | None) -> frozenset[str]:
 def sensor_topic(model: Model, parent: str, sensor: Sensor, output: str, *, main: str, part: str = "") -> str:
     """Topic of a sensor's output: `/<model>/<parent>/<sensor>/<output>`, unless the file has a <topic>.
 
-    A <topic> is the main output's; camera_info is its sibling, as in gz, and other outputs are below it.
+    A <topic> names the main output; camera_info is its sibling, as in gz, and other outputs are below it.
 
     Args:
         model: model of the sensor.

@@ -68,7 +68,7 @@ def _send_frame(sensor: InstrumentSensor, static_broadcaster: StaticTransformBro
                 "child": names.link(sensor.model, sensor.link.name),
                 "parent": WORLD_FRAME if parent == "world" else names.link(sensor.model, parent),
             }.get(sensor.settings.frame, frame)
-        case SonarSensor():  # x along the beam
+        case SonarSensor():  # the frame's x axis is along the beam
             return _send_sensor_frame(sensor, sensor.link_from_beam, static_broadcaster, names)
         case _:
             return _send_sensor_frame(sensor, sensor.sensor.link_from_sensor, static_broadcaster, names)

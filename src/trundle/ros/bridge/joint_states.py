@@ -14,7 +14,7 @@ class JointStatesTopic:
     """Publishes `joint_states` for every joint of one degree of freedom, in file order."""
 
     period_ns = 20_000_000
-    """50 Hz."""
+    """Period of 50 Hz."""
 
     def __init__(self, node: Node, model: ModelHandle, *, topic: str = "/joint_states") -> None:
         """Advertise the joints of one model."""

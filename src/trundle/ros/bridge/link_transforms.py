@@ -15,7 +15,7 @@ class LinkTransforms:
     """Broadcasts each link's pose in its parent; fixed ones once, on /tf_static."""
 
     period_ns = 20_000_000
-    """50 Hz, robot_state_publisher's default."""
+    """Period of 50 Hz, robot_state_publisher's default."""
 
     def __init__(
         self, node: Node, static_broadcaster: StaticTransformBroadcaster, world: World, start: Snapshot

@@ -31,7 +31,7 @@ class Condition(NamedTuple):
     """Condition of sensors of a type to have an output."""
 
     text: str
-    """For the documentation; empty for the usual case."""
+    """Text for the documentation; empty for the usual case."""
     holds: Callable[[Any], bool]
 
 
@@ -39,7 +39,7 @@ class SensorOutput(NamedTuple):
     """One topic of a sensor."""
 
     name: str
-    """End of the topic."""
+    """Last part of the topic's name."""
     type: str
     """Message type."""
     queue_size: int
@@ -49,7 +49,7 @@ class SensorOutput(NamedTuple):
 
 
 def _always(encode: Encode) -> Callable[[Any], Encode]:
-    """An encoder that is the same for all sensors."""
+    """Return the same message function for all sensors."""
     return lambda _: encode
 
 

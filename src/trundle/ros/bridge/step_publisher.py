@@ -17,7 +17,7 @@ class StepPublisher:
     """
 
     QUEUE_SIZE = 100
-    """10 in gazebo_ros, which sleeps before each step; here many steps run without a pause."""
+    """Queue size; gazebo_ros has 10, but sleeps before each step, while here many steps run without a pause."""
 
     def __init__(self, topic: Publisher, publish: Callable[[Snapshot], None]) -> None:
         self._topic = topic

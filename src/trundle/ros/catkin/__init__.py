@@ -1,4 +1,4 @@
-"""catkin without CMake: packages, workspaces, and devel spaces, by which shells find the packages."""
+"""catkin without CMake: packages, workspaces, and devel spaces, through which shells find the packages."""
 
 import lazy_loader
 

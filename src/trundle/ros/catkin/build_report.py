@@ -46,7 +46,7 @@ class PackageBuild:
     """Build report of one package."""
 
     ready: tuple[str, ...]
-    """Parts that need no building, with their number: `2 messages`."""
+    """Parts that run without building, with their number: `2 messages`."""
     targets: tuple[CppTarget, ...]
 
 

@@ -41,7 +41,7 @@ def write_devel_space(workspace: Workspace, environment: Mapping[str, str]) -> b
 
 
 def _mark(space: Path) -> None:
-    """Write the file in which catkin's tools note which of them built a space."""
+    """Write the file in which catkin's tools note the tool that built a space."""
     marker = space / ".built_by"
     tool = marker.read_text(encoding="utf-8", errors="replace").strip() if marker.is_file() else _TOOL
     if tool != _TOOL:

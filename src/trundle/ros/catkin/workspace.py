@@ -88,7 +88,7 @@ def open_workspace(
 def init_workspace(source: Path, environment: Mapping[str, str]) -> str:
     """Create the CMakeLists.txt at the top of the sources and return a line about it.
 
-    It is a link to an installed catkin's file, as with catkin; a file if catkin is not installed.
+    It is a link to an installed catkin's file, as with catkin; or a file if catkin is not installed.
 
     Raises:
         UsageError: it exists or cannot be written.
@@ -97,7 +97,7 @@ def init_workspace(source: Path, environment: Mapping[str, str]) -> str:
     if target.exists():
         raise UsageError(f'File "{target}" already exists')
     try:
-        if target.is_symlink():  # to a catkin no longer installed
+        if target.is_symlink():  # a link to a catkin that is no longer installed
             target.unlink()
         installed = _installed_toplevel(environment)
         if installed is None:

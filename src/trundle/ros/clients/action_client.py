@@ -10,9 +10,9 @@ if TYPE_CHECKING:
     from ..messages.raw_message import Message
 
 _PATIENCE_NS = 1_000_000_000
-"""Time after which a goal that is in no status is sent again."""
+"""Time after which a goal that no status lists is sent again [s]."""
 ABORTED = 4
-"""State of a goal that the server gave up, as in actionlib_msgs/GoalStatus."""
+"""State of a goal that the server gave up, a constant of actionlib_msgs/GoalStatus."""
 
 
 class ActionClient:
@@ -30,7 +30,7 @@ class ActionClient:
         self._numbers = itertools.count(1)
         self._goal_id = ""
         self._message: dict[str, Any] = {}
-        """The goal, as it is sent again if the server did not receive it."""
+        """The goal, which is sent again if the server did not receive it."""
         self._sent_ns = 0
         self._has_status = False
         self._on_done: Callable[[int], object] | None = None
@@ -43,7 +43,7 @@ class ActionClient:
 
     @property
     def has_server(self) -> bool:
-        """True if there is a server, and somebody receives goals."""
+        """True if a server reports its status, and the goal topic has a subscriber."""
         return self._has_status and self._goals.has_subscribers
 
     def send(
@@ -67,14 +67,14 @@ class ActionClient:
         self._goals.publish(self._message)
 
     def cancel(self) -> None:
-        """Cancel the goal, whose end is not reported any more."""
+        """Cancel the goal; its end is not reported any more."""
         goal_id = self._goal_id
-        self._goal_id, self._on_done, self._on_feedback = "", None, None  # before the result, which another thread gets
+        self._goal_id, self._on_done, self._on_feedback = "", None, None  # before another thread gets the result
         if goal_id:
             self._cancels.publish({"id": goal_id})
 
     def _receive_status(self, message: Any) -> None:
-        """Send a goal again that the server does not know: it was not connected yet."""
+        """Send a goal again that the server does not know, because it was not connected yet."""
         self._has_status = True
         now_ns = self._node.clock.now_ns()
         is_known = any(status.goal_id.id == self._goal_id for status in message.status_list)

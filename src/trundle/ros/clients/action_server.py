@@ -59,8 +59,8 @@ class ActionServer:
             node: node that publishes and subscribes.
             name: action's namespace, resolved like a topic.
             type_name: action type, such as 'control_msgs/FollowJointTrajectory'.
-            work: coroutine function of the goal and of `accept`, to be called on the loop when the goal is accepted;
-                cancelled when the goal is.
+            work: coroutine function of the goal and of `accept`, which it calls on the loop when it accepts the goal;
+                it is cancelled with the goal.
             concurrent: True: goals run concurrently; `work` may preempt them.
         """
         self._node = node
@@ -115,7 +115,7 @@ class ActionServer:
         goal.task = asyncio.get_running_loop().create_task(self._run(goal, message.goal))
 
     def _on_cancel(self, message: "actionlib_msgs.GoalID") -> None:
-        """Cancel by id; an empty id means all, a stamp all goals up to it."""
+        """Cancel by ID; an empty ID means all goals, a stamp all goals up to that time."""
         stamp = to_nsec(message.stamp)
         for key, goal in self._goals.items():
             everything = not message.id and stamp == 0
@@ -128,7 +128,7 @@ class ActionServer:
 
     async def _run(self, goal: _Goal, message: Message) -> None:
         def accept() -> None:
-            if goal.status == _PENDING:  # unless cancelled meanwhile
+            if goal.status == _PENDING:  # unless the goal was cancelled meanwhile
                 goal.status = _ACTIVE
                 self._publish_status()
 

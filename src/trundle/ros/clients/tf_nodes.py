@@ -44,7 +44,7 @@ class StaticTransformBroadcaster:
         self._sent: dict[str, Transform] = {}
 
     def send_transform(self, *transforms: Transform) -> None:
-        """Publish transforms along with all earlier ones; a later one of the same child replaces it."""
+        """Publish transforms together with all earlier ones; a new transform replaces its child's earlier one."""
         self._sent.update({transform.child: transform for transform in transforms})
         self._publisher.publish(transform_message(self._node, tuple(self._sent.values())))
 

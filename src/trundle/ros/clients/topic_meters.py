@@ -39,7 +39,7 @@ class MeterStatistics(NamedTuple):
 
 
 class _TimeMeter(ABC):
-    """Window of times that start with a topic's second message."""
+    """Window of times; the first one comes with a topic's second message."""
 
     def __init__(self, clock: RosTime, window: int = -1) -> None:
         """Start empty.
@@ -89,7 +89,7 @@ class _TimeMeter(ABC):
 
     @abstractmethod
     def _measure(self, message: Any, now_s: float) -> float:
-        """Return the time that a message adds to the window [s]."""
+        """Return the value [s] that a message adds to the window."""
 
     @abstractmethod
     def _average_text(self, statistics: MeterStatistics) -> str: ...

@@ -21,7 +21,7 @@ _POINTS = 100_000
 
 
 def spread_fields(text: str) -> list[str]:
-    """Expand rqt_plot's short form: /a/x:y means /a/x and /a/y."""
+    """Expand rqt_plot's short form: /a/x:y stands for /a/x and /a/y."""
     first, *others = text.split(":") if "[" not in text else [text]
     stem = first.rpartition("/")[0]
     return [first, *(f"{stem}/{other}" for other in others)]

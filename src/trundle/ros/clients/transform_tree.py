@@ -114,7 +114,7 @@ class TransformTree:
                 return frame, frame_from_source, None
             try:
                 step = self._transform_at(frame, stamp_ns)
-            except ExtrapolationError as error:  # a common ancestor may be below
+            except ExtrapolationError as error:  # a common ancestor may be nearer to both frames
                 return frame, frame_from_source, error
             if step is None:
                 return frame, frame_from_source, None

@@ -214,7 +214,7 @@ class Master:
         if value is None:
             raise BadArgumentError("ERROR: parameter [value] must be specified")
         try:
-            encode_response(value)  # getParam of the namespace fails if one value cannot be encoded
+            encode_response(value)  # otherwise getParam of the namespace would fail: XML-RPC cannot encode the value
             self.set_param(name, value, by=caller)
         except ValueError as error:
             return -1, f"ERROR: parameter [value]: {error}", 0

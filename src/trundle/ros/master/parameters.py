@@ -13,7 +13,7 @@ Update: TypeAlias = tuple[str, str, object]
 MAX_BYTES = 64 * 1024 * 1024
 """Limit of the whole tree [bytes]: as much as one XML-RPC answer holds, so that getParam of "/" succeeds."""
 MAX_DEPTH = 90
-"""Limit of names and nested values together: XML-RPC carries 100 levels, some of which are the answer's own."""
+"""Maximum depth of names and nested values together: XML-RPC carries 100 levels, and the answer takes some."""
 _ITEM_BYTES = 64
 """Estimated XML-RPC size of a name or number, markup included."""
 

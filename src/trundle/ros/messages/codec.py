@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from rosbags.typesys.store import Typestore
 
 ENCODING_ERRORS = (AttributeError, BufferError, OverflowError, TypeError, ValueError)
-"""Raised if a field's value does not fit its type, or the bytes are not a message."""
+"""Exceptions for a field's value that does not fit its type, and for bytes that are no message."""
 
 
 class Codec:

@@ -6,7 +6,7 @@ from typing import TypeAlias
 from ..errors import DefinitionError, MessageError
 
 Constant: TypeAlias = tuple[str, str, bool | int | float | str]
-"""Name, type and value."""
+"""A constant: name, type and value."""
 _LINE = re.compile(
     r"^[ \t]*(?P<type>[A-Za-z0-9_]+)[ \t]+(?P<name>[A-Za-z][A-Za-z0-9_]*)[ \t]*=(?P<value>.*)$", re.MULTILINE
 )

@@ -1,6 +1,6 @@
 """Sources of message definitions: shipped with Trundle, added folders, packages on the package path, published ones.
 
-Shipped definitions, of the standard packages, come first. Published ones of other packages come last, since a package
+Shipped definitions, of the standard packages, come first. Definitions published by nodes come last, since a package
 on the path may be of another release.
 """
 
@@ -101,7 +101,7 @@ class Definitions:
                         self._add(self.messages, part, part_text, origin)
 
     def service_text(self, type_name: str) -> str:
-        """Definition of a registered service type: the installed one, with comments, if otherwise equal."""
+        """Definition of a registered service type; if the installed one differs only in comments, the installed one."""
         text = self.services[type_name]
         installed = self.installed(type_name, "srv")
         if installed is not None and _without_comments(installed) == _without_comments(text):

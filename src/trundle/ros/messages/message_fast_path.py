@@ -1,6 +1,6 @@
 """Fast path for well-formed values; anything else raises, and the message builder finds the fault."""
 
-# Values are of any type.
+# For pyright: values are of any type.
 # pyright: reportUnknownMemberType=false, reportUnknownArgumentType=false, reportUnknownVariableType=false
 
 from collections.abc import Callable, Sequence
@@ -21,7 +21,7 @@ _DTYPES = {"bool": "bool", "byte": "int8", "char": "uint8"}
 
 _Make: TypeAlias = Callable[[Any], Any]
 _Fields: TypeAlias = list[tuple[str, _Make, Callable[[], Any]]]
-"""Name, maker from a value, and maker of ROS's default."""
+"""A field: name, function that makes it from a value, and function that makes ROS's default."""
 _MISSING = object()
 _NUMBERS = (int, np.float64, np.float32)
 """Real number types besides float that the fast path accepts."""
@@ -92,7 +92,7 @@ class MessageFastPath:
             makers[key] = _time_maker(cls)
             return makers[key]
         fields: _Fields = []
-        makers[key] = _message_maker(cls, fields)  # before its fields, for lists of the same type
+        makers[key] = _message_maker(cls, fields)  # before its fields, which may be lists of this type
         for name, desc in fields_of(self._store, key):
             fields.append((name, self._maker(desc, makers), self.default(desc)))
         return makers[key]

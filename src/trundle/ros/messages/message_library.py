@@ -82,7 +82,7 @@ class Messages:
         return self._type_definitions.constants(self._key(type_name))
 
     def text(self, type_name: str) -> str:
-        """Definition of a type without dependencies; without comments if from rosbags and no ROS is installed."""
+        """Definition of a type without dependencies; from rosbags, where no ROS is installed, it has no comments."""
         return self._type_definitions.text(self._key(type_name))
 
     def service_text(self, type_name: str) -> str:

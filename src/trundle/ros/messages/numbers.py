@@ -1,6 +1,6 @@
 """Numbers in messages by their paths in plots: `.pose.pose.position.x`, `.ranges[3]`, `.position[left_wheel]`.
 
-Times, strings and headers are left out, and so are long arrays: those of bytes, such as images, sooner than others.
+Times, strings and headers are left out, and so are long arrays; the limit is lower for arrays of bytes, such as images.
 """
 
 from collections.abc import Iterator
@@ -21,7 +21,7 @@ _MAX_PARTS = 64
 """Limits of the length of arrays of bytes, of other numbers and of messages."""
 _MAX_DEPTH = 32
 _MAX_LAYOUTS = 16
-"""Limit of a type's layouts; messages of further ones are not read."""
+"""Maximum number of layouts of a type; messages of further layouts are not read."""
 
 
 class Layout(Struct, frozen=True, eq=False):
@@ -29,14 +29,14 @@ class Layout(Struct, frozen=True, eq=False):
 
     paths: tuple[str, ...]
     is_held: tuple[bool, ...]
-    """True: whole numbers and truth, which do not pass through values in between."""
+    """True for integers and booleans, which are not interpolated."""
 
 
 class NumberReader:
     """Reads the numbers of one type's messages."""
 
     def __init__(self, messages: Messages, type_name: str) -> None:
-        """Prepare it.
+        """Read the fields of the type.
 
         Raises:
             MessageError: the type is unknown, or contains itself.
@@ -61,7 +61,7 @@ class NumberReader:
 
 
 class _Fields:
-    """Fields of a type that are numbers, or have some."""
+    """Fields of a type that are numbers or contain some."""
 
     def __init__(self, messages: Messages, type_name: str, depth: int = 0) -> None:
         if depth > _MAX_DEPTH:

@@ -54,7 +54,7 @@ class MessagePrinter:
             yield name, str(value)
         else:
             for field, kind in self.messages.fields(base).items():
-                if kind.startswith(_BYTES):  # strings to rostopic, which does not plot them
+                if kind.startswith(_BYTES):  # rostopic treats them as strings, which it does not plot
                     continue
                 if not (self.hide_arrays and "[" in kind) and not (self.hide_strings and "string" in kind):
                     yield from self.columns(field_value(value, field), kind, f"{name}.{field}")

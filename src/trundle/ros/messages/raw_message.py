@@ -1,4 +1,4 @@
-"""Messages as objects and bytes, and service types; without the type store, which takes longer to import."""
+"""Types of messages as objects and bytes, and of services; the type store takes longer to import."""
 
 from typing import Any, NamedTuple, Protocol, TypeAlias
 

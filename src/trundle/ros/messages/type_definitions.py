@@ -27,9 +27,9 @@ class TypeDefinitions:
     """Definitions and md5 sums of one store's types."""
 
     def __init__(self, store: "Typestore", installed: Definitions | None) -> None:
-        """Create; `installed` supplies definitions of an installed ROS, if given."""
+        """Create; `installed` supplies the definitions of an installed ROS, if there is one."""
         self.registered: dict[str, str] = {}
-        """Definitions as written, of types not from rosbags, which drops comments."""
+        """Definitions as written, of types that do not come from rosbags, which drops comments."""
         self._store = store
         self._installed = installed
         self._md5s: dict[str, str] = {}
@@ -47,7 +47,7 @@ class TypeDefinitions:
         }
 
     def text(self, key: str) -> str:
-        """Return the definition of a type without dependencies: the installed one if equal except for comments.
+        """Return the definition of a type without dependencies: the installed one if it differs only in comments.
 
         `rosbag check` compares definitions including comments, not md5 sums.
         """

@@ -65,7 +65,7 @@ class TypeSizes:
             inner, count = detail
             return _OBJECT_BYTES + count * self._field_size(inner)
         if kind == 4:
-            self._field_size(detail[0])  # a list of its own type is invalid in ROS, too
+            self._field_size(detail[0])  # ROS does not allow a list of the message's own type either
             return _OBJECT_BYTES
         if kind == 2:
             return self._size(detail)

@@ -62,7 +62,7 @@ class Migrator:
         return self._known.message_class(kind) if self._known.has(kind) else None
 
     def target(self, old: MessageClass) -> MessageClass | None:
-        """Known class that a recorded type migrates to: of its own name, or of the name rules rename it to."""
+        """Known class that a recorded type migrates to: of the same name, or of the name to which rules rename it."""
         known = self.known_class(old.kind)
         step = self._first.get(old.kind)
         if known is not None or step is None:
@@ -79,7 +79,7 @@ class Migrator:
         return self._paths[key]
 
     def rule_to_complete(self, rule: PlaceholderRule, kind: str) -> GeneratedRule | None:
-        """Rule to complete, from an unmatched type to the known type `kind`; None if that is unknown."""
+        """Rule for the user to complete, from an unmatched type to the known type `kind`; None if `kind` is unknown."""
         known = self.known_class(kind)
         return None if known is None else self._generated_with_sub_rules(rule.old_class, known)
 
@@ -117,7 +117,7 @@ class Migrator:
     # -- linking
 
     def _link(self) -> None:
-        """Link the rules of each type to each other, to those of its later types, and to the known types."""
+        """Link the rules of each type to each other, to the rules of its later names, and to the known types."""
         steps: list[MigrationStep] = []
         last_steps: list[MigrationStep] = []
         for kind, chain in self._chains.items():
@@ -163,7 +163,7 @@ class Migrator:
         return MigrationStep(last.new, None, PlaceholderRule(self, last.new) if to_known is None else to_known.rule)
 
     def _range(self, old_type: str, new_type: str) -> list[MigrationStep]:
-        """Steps from the first rule of a type to the last that ends in another."""
+        """Steps from the first rule of a type to the last rule that ends in another type."""
         step = self._first.get(old_type)
         steps = [] if step is None else [step]
         has_reached_new = False
@@ -188,7 +188,7 @@ class Migrator:
         return self._from_old(self._to_new(steps, new), old, new) if steps else [self._step(old, new)]
 
     def _to_new(self, steps: list[MigrationStep], new: MessageClass) -> list[MigrationStep]:
-        """Steps up to the last one from which a rule leads to `new`, and that rule."""
+        """Steps up to the last class from which a rule leads to `new`, and this rule."""
         ends = list(takewhile(lambda i: _type(steps[i].new) == new.kind, reversed(range(len(steps)))))
         for i in ends:
             if _key(steps[i].new) == new.key:
@@ -200,7 +200,7 @@ class Migrator:
         return [*steps, self._step(steps[-1].new, new)]
 
     def _from_old(self, steps: list[MigrationStep], old: MessageClass, new: MessageClass) -> list[MigrationStep]:
-        """Steps from the last one to which a rule leads from `old`, after that rule."""
+        """Steps from the last class that a rule from `old` leads to, and this rule before them."""
         starts = [i for i in reversed(range(len(steps))) if steps[i].old.kind == old.kind]
         for i in starts:
             if steps[i].old.key == old.key:

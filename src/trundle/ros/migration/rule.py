@@ -70,7 +70,7 @@ class Rule:
                 self.migrator.warn(f"{self.location}: migrated_types names {error}, which is not in the type's text")
                 self.sub_rules_valid = False
                 continue
-            # A rule may name its own type if the md5 sums match.
+            # A pair of types equal to the rule's own needs no other rules.
             if self.new_class is None or (old.key, new.key) != (self.old_class.key, self.new_class.key):
                 self.sub_rules += self.migrator.rules_between(old, new)
             if not all(rule.valid for rule in self.sub_rules):
@@ -79,11 +79,11 @@ class Rule:
                 self.sub_rules_valid = False
 
     def get_old_class(self, name: str) -> MessageClass:
-        """Class of a type within the old one."""
+        """Class of a nested type of the old message."""
         return _class(self.old_types, self.old_type, name)
 
     def get_new_class(self, name: str) -> MessageClass:
-        """Class of a type within the new one."""
+        """Class of a nested type of the new message."""
         return _class(self.new_types, self.new_type, name)
 
     def migrate(self, old: Any, new: Any) -> None:

@@ -8,7 +8,7 @@ from .loop import GraphLoop
 
 _Result = TypeVar("_Result")
 Callback: TypeAlias = Callable[[], Callable[[], object] | None]
-"""Runs the callback of a message or request; returns a function that repeats it if that came from outside."""
+"""Runs the callback of a message or request; returns a function that repeats the call if it came from outside."""
 Deliver: TypeAlias = Callable[[Callback], None]
 """Schedules a callback outside the loop."""
 

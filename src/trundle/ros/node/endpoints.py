@@ -156,11 +156,11 @@ class NodeEndpoints:
         return [(topic, subscriptions[0].type) for topic, subscriptions in self._subscriptions.items()]
 
     def connections(self) -> list[list[int | str | bool]]:
-        """All links, as in getBusInfo."""
+        """All connections, in the form of getBusInfo."""
         return [link for end in (*self.publishers, *self.subscriptions) for link in end.connections()]
 
     def statistics(self) -> list[list[object]]:
-        """Bytes and messages, as in getBusStats."""
+        """Counts of bytes and messages, in the form of getBusStats."""
         return [[p.statistics() for p in self.publishers], [s.statistics() for s in self.subscriptions], []]
 
     # -- on the loop
@@ -215,7 +215,9 @@ class NodeEndpoints:
         self._node.loop.local.notify_service_change()
 
     async def _register_subscriber(self, topic: str, type_name: str, *, keep_publishers: bool = False) -> None:
-        """Register the subscriptions of a topic; `keep_publishers`: connected ones may have yet to register again."""
+        """Register the subscriptions of a topic; `keep_publishers`: keep connected publishers, which may not have
+        registered again yet.
+        """
         publishers = await self._call_master("registerSubscriber", topic, type_name, self._node.uri)
         uris = [str(uri) for uri in publishers]
         for subscription in self._subscriptions.get(topic, []):

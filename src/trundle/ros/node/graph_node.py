@@ -73,7 +73,7 @@ class Node:
             clock: ROS time; wall time by default.
             deliver: called on the loop with a function per message and request, which must be called later, in any
                 thread; must not block. By default, callbacks run on the loop.
-            deliver_call: called so with the functions of requests; by default `deliver` is.
+            deliver_call: as `deliver`, for requests; `deliver` by default.
             rosout: True: publish /rosout and advertise the logger services.
             host: address to bind; loopback by default.
             ports: ports of the slave API and of TCPROS; 0: any free port.
@@ -120,7 +120,7 @@ class Node:
 
     @property
     def service_uri(self) -> str:
-        """rosrpc URI of its services."""
+        """rosrpc URI of the node's services."""
         return self._slave.service_uri
 
     @property
@@ -300,7 +300,7 @@ class Node:
         await self._registrations.wait_done()
 
     async def wait_connected(self) -> None:
-        """Wait until every subscription is connected to its publishers, or warned that they are unreachable."""
+        """Wait until every subscription is connected to its publishers, or has reported that they are unreachable."""
         await self.wait_registered()
         while not all(subscription.is_settled for subscription in self.endpoints.subscriptions):
             await asyncio.sleep(_CONNECT_POLL_S)
@@ -375,6 +375,6 @@ class Node:
         if self.name != "/rosout":  # /rosout would aggregate its own messages endlessly
             rosout = self.advertise("/rosout", "rosgraph_msgs/Log", queue_size=100)
             self.log.publish_on(rosout, lambda: [publisher.topic for publisher in self.endpoints.publishers])
-        # Coroutines, which the loop answers: they concern the node, not what its callbacks act on.
+        # Coroutines, so that the loop answers: they concern the node, not the objects of its callbacks.
         self.advertise_service("~get_loggers", "roscpp/GetLoggers", self.log.get_loggers)
         self.advertise_service("~set_logger_level", "roscpp/SetLoggerLevel", self.log.set_logger_level)

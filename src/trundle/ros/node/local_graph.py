@@ -38,7 +38,7 @@ class LocalPublisher(Protocol):
 
     @property
     def is_outside(self) -> bool:
-        """True if its node runs outside the simulation, and repeats no messages when simulated time is repeated."""
+        """True if the node runs outside the simulation, and does not publish again when simulated time repeats."""
         ...
 
     @property
@@ -61,7 +61,7 @@ class LocalSubscriber(Protocol):
     is_raw: bool
     """True if it receives serialized messages."""
     needs_every_message: bool
-    """True if no message may be skipped; else the newest suffices."""
+    """True if the subscription needs every message; otherwise the newest suffices."""
 
     def receive(self, message: Message, *, from_outside: bool) -> None:
         """Receive a message object; `from_outside` is `LocalPublisher.is_outside`."""
@@ -99,9 +99,9 @@ class LocalGraph:
         self.nodes: dict[str, LocalNode] = {}
         """XML-RPC address → node."""
         self.masters: set[str] = set()
-        """URIs of the masters in this process, which end with it."""
+        """URIs of the masters in this process, which end with the process."""
         self.publishers: WeakSet[LocalPublisher] = WeakSet()
-        """Publishers so far; those that are closed deliver nothing."""
+        """All publishers so far, closed ones included."""
         self.on_publisher: list[Callable[[LocalPublisher], None]] = []
         """Called on the loop with each new publisher."""
         self.service_changes = 0

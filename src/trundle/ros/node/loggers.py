@@ -10,7 +10,7 @@ _ROSCPP = ("ros.roscpp", "ros.roscpp.roscpp_internal", "ros.roscpp.roscpp_intern
 
 
 class Loggers:
-    """Levels by logger name; a logger without a level inherits its nearest ancestor's.
+    """Levels by logger name; a logger without a level has that of its nearest ancestor.
 
     The node logs to the default one.
     """

@@ -57,7 +57,7 @@ class GraphLoop:
         self._batch_thread: int | None = None
         """Thread whose calls are batched until `end_batch`."""
         self.loop_threads: set[int | None] = set()
-        """IDs of the loop's and the batching thread, for which sending directly has no advantage."""
+        """IDs of the loop's thread and the batching thread, for which sending directly has no advantage."""
         self._batch: list[Callable[[], object]] = []
         self.publish_timer: Callable[[], contextlib.AbstractContextManager[object]] | None = None
         """Entered while a message is published, in the publishing thread."""
@@ -152,7 +152,7 @@ class GraphLoop:
 
     def _drop_unstarted(self) -> None:
         """Cancel the futures of coroutines the loop never started."""
-        with contextlib.suppress(KeyError):  # another thread may drop them, too
+        with contextlib.suppress(KeyError):  # another thread may cancel them at the same time
             while True:
                 future, coroutine = self._unstarted.popitem()
                 coroutine.close()
@@ -290,7 +290,7 @@ def _wait_result(future: Future[_T], timeout_s: float | None, poll: Callable[[],
         try:
             return future.result(max(0.0, min(left_s, _WAIT_S)))
         except TimeoutError:
-            if future.done():  # completed meanwhile, or the coroutine raised TimeoutError
+            if future.done():  # the coroutine has completed meanwhile, or raised TimeoutError itself
                 return future.result()
             if left_s <= _WAIT_S:
                 raise

@@ -29,7 +29,7 @@ class MasterClient:
             return await self.poll(method, *arguments)
 
     async def poll(self, method: str, *arguments: object) -> Any:
-        """`call` for polling: not tracked as work in progress, which a run in lockstep waits for.
+        """As `call`, for polling: it is not tracked as work in progress, for which a run in lockstep waits.
 
         On a slow machine a pass of the loop takes longer than the poll interval, so that work would always be pending.
         """

@@ -28,7 +28,7 @@ class NodeContext(Protocol):
 
     @property
     def service_uri(self) -> str:
-        """rosrpc URI of its services."""
+        """rosrpc URI of the node's services."""
         ...
 
     @property
@@ -63,7 +63,7 @@ class NodeContext(Protocol):
 
     @property
     def deliver_call(self) -> Deliver | None:
-        """Schedules callbacks of requests, for whose result somebody waits."""
+        """Schedules callbacks of requests, for whose result a client waits."""
         ...
 
     @property

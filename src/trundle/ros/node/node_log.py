@@ -66,7 +66,7 @@ class NodeLog:
         self._write("error", f"{text}: {error}\n{trace}")
 
     def publish_on(self, rosout: LogTopic, topics: Callable[[], list[str]]) -> None:
-        """Publish later messages on /rosout; `topics` returns the node's published topics."""
+        """Publish messages on /rosout from now on; `topics` returns the node's published topics."""
         self._rosout, self._topics = rosout, topics
 
     async def get_loggers(self, request: "roscpp.GetLoggersRequest") -> dict[str, object]:

@@ -18,7 +18,7 @@ class ParamClient:
     """Access to the parameter server; names are resolved and remapped."""
 
     def __init__(self, node: NodeContext, private: Mapping[str, object]) -> None:
-        """`private` parameters are set when the node starts; reads wait for that."""
+        """`private` parameters are set when the node starts; reads wait until they are set."""
         self._node = node
         self._private = dict(private)
         self._is_set = asyncio.Event()
@@ -126,7 +126,7 @@ class ParamClient:
         try:
             await self.set(f"~{name}", value)
         except MasterUnreachableError:
-            self._is_set.set()  # waiting readers then get the same error
+            self._is_set.set()  # readers that wait get the same error
             raise
 
     async def _wait_private(self) -> None:

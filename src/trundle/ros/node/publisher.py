@@ -51,9 +51,11 @@ class Publisher:
         """Pair (md5 sum, definition) of a possibly unknown type."""
         self._subscriber_links = SubscriberLinks(topic)
         self._direct: tuple[SendQueue, ...] = ()
-        """Send queues that the publishing thread writes to: other processes, if there are no local subscribers."""
+        """Send queues to other processes, which the publishing thread writes itself if there are no local
+        subscribers.
+        """
         self._refused: set[str] = set()
-        """Names of subscribers already warned about; they retry."""
+        """Names of refused subscribers, each reported once; they retry."""
         self._subscriber_count = 0
         """Number of links; read by any thread."""
         self._outbox: deque[Any] = deque(maxlen=queue_size)
@@ -89,7 +91,7 @@ class Publisher:
     def is_congested(self) -> bool:
         """True while every subscriber reads too slowly."""
         outs = self._direct
-        for out in outs:  # usual, and called for every message
+        for out in outs:  # the usual case first, as this is called for every message
             if not out.is_congested:
                 return False
         return bool(outs)
@@ -198,7 +200,7 @@ class Publisher:
         }
 
     def resume(self) -> None:
-        """Continue after all subscribers were congested."""
+        """Send the waiting messages after all subscribers were congested."""
         if self._outbox and not self._is_flush_scheduled:
             self._flush()
 

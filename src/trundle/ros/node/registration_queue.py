@@ -18,7 +18,7 @@ _RETRY_S, _FIRST_RETRY_S, _FIRST_RETRIES = 0.5, 0.05, 40
 
 
 class RegistrationQueue:
-    """Queue of master calls, retried while no master answers."""
+    """Queue of master calls, which are retried while no master answers."""
 
     def __init__(self, loop: GraphLoop, *, log: NodeLog) -> None:
         self._loop = loop
@@ -76,7 +76,7 @@ class RegistrationQueue:
             await asyncio.gather(self._worker, return_exceptions=True)
 
     async def retry(self, registration: Registration) -> None:
-        """Execute a call, retrying until a master answers; the wait for a missing master is no work in progress."""
+        """Execute a call, retrying until a master answers; the wait for a master does not count as work in progress."""
         for attempt in count():
             try:
                 await registration()

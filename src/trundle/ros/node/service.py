@@ -16,7 +16,7 @@ from .node_context import NodeContext
 ServiceCallback = Callable[[Message], object]
 """Takes the request; returns the response, its fields as a dictionary, or an awaitable of either."""
 _MAX_WAITING = 64
-"""Requests a client may send ahead; no client library sends more than one."""
+"""Maximum number of requests that a client may send ahead; no client library sends more than one."""
 
 
 class Service:
@@ -84,7 +84,7 @@ class Service:
     def release(self, link: FrameProtocol) -> None:
         """Remove a closed connection."""
         if (requests := self._links.pop(link, None)) is not None:
-            with contextlib.suppress(asyncio.QueueFull):  # a busy task checks the connection itself
+            with contextlib.suppress(asyncio.QueueFull):  # a task that handles a request checks the connection itself
                 requests.put_nowait(None)
 
     def close(self) -> None:

@@ -68,7 +68,7 @@ async def _look_up(node: NodeContext, name: str) -> str:
 
 
 async def wait_for_service(node: NodeContext, name: str, timeout_s: float | None) -> None:
-    """Wait until a service is available, by its global name; also for a master, as rospy does.
+    """Wait until a service is available, by its global name; waits for the master, too, as rospy does.
 
     Raises:
         ServiceError: timeout.
@@ -78,7 +78,7 @@ async def wait_for_service(node: NodeContext, name: str, timeout_s: float | None
     try:
         async with asyncio.timeout(timeout_s):
             while True:
-                changes = node.loop.local.service_changes  # before the look-up: a later registration wakes
+                changes = node.loop.local.service_changes  # before the look-up: later ones end the wait
                 with contextlib.suppress(MasterError, MasterUnreachableError):
                     await look_up("lookupService", name)
                     return

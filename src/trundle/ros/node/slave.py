@@ -23,7 +23,7 @@ _BACKLOG = 512
 """Accept queue: all subscribers of a big launch connect at once, and a rejected one retries after a second."""
 _URL = re.compile(r"\w[\w+.-]*://.")
 _MAX_PENDING_PEERS = 512
-"""Limit of connections without a header; beyond it the oldest is closed."""
+"""Maximum number of connections that have not sent a header yet; beyond it, the oldest is closed."""
 
 
 class Slave:
@@ -39,7 +39,7 @@ class Slave:
         on_shutdown: Callable[[str], None],
         ports: tuple[int, int] = (0, 0),
     ) -> None:
-        """`on_shutdown` is called with a shutdown request's reason; `ports`: those of the slave API and of TCPROS."""
+        """`on_shutdown` is called with the reason of a shutdown request; `ports` are the slave API's and TCPROS's."""
         self._ports = ports
         self._node = node
         self._endpoints = endpoints
@@ -170,7 +170,7 @@ class _Inbound(FrameProtocol):
         assert self.transport is not None
         if self.out.is_local and not is_of_this_user(self.transport.get_extra_info("socket")):
             self.close("the peer runs as another user")
-        if self._node.is_shut_down:  # accepted during shutdown
+        if self._node.is_shut_down:  # the connection was accepted during shutdown
             self.close("the node shuts down")
 
     def header_received(self, header: dict[str, str]) -> None:

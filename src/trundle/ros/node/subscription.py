@@ -23,7 +23,7 @@ from .subscriber_link import SubscriberLink
 
 Callback = Callable[[Message], "Awaitable[None] | None"]
 _RETRY_S = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
-"""Intervals of retries to reach a publisher still registered."""
+"""Intervals between attempts to reach a registered publisher [s]."""
 _CONNECT_S = 10.0
 
 
@@ -47,7 +47,7 @@ class Subscription:
         self.is_raw = type_name == ANY_TYPE
         """True if the callback receives serialized messages."""
         self.needs_every_message = queue_size != 1
-        """True if no message may be skipped; else the newest suffices."""
+        """True if the subscription needs every message; otherwise the newest suffices."""
         self.received = 0
         self.dropped = 0
         """Messages dropped because callbacks were too slow."""
@@ -61,7 +61,7 @@ class Subscription:
         self._deliver = None if on_loop else node.deliver
         self._is_called_at_once = self._deliver is None and not self._is_async
         self._queue: deque[tuple[Message, bool]] = deque()
-        """Messages, and if they came from outside the simulation of this process."""
+        """Queued messages, each with True if it came from outside the simulation of this process."""
         self._queue_size = queue_size
         self._worker: asyncio.Task[None] | None = None
         self._tasks: dict[str, asyncio.Task[None]] = {}
@@ -203,7 +203,7 @@ class Subscription:
                     await self._connect(uri)
                 attempt, was_connected = 0, True
             except (OSError, RosError, FaultError) as error:
-                has_ended = was_connected and isinstance(error, ConnectionRefusedError)  # without unregistering
+                has_ended = was_connected and isinstance(error, ConnectionRefusedError)  # ended without unregistering
                 if not has_ended:
                     self._warn_unreachable(uri, str(error) or type(error).__name__, attempt)
             await asyncio.sleep(_RETRY_S[min(attempt, len(_RETRY_S) - 1)])
@@ -268,7 +268,7 @@ class Subscription:
         return header
 
     def _warn_unreachable(self, uri: str, reason: str, attempt: int) -> None:
-        """Warn once about an unreachable publisher, after the usual failures while it starts or ends."""
+        """Warn once about an unreachable publisher, but not about the usual failures while it starts or ends."""
         if attempt >= 2 and uri not in self._unreachable:
             self._unreachable.add(uri)
             self._node.log.warn(f"no messages on {self.topic} from {uri}: {reason}")
@@ -287,7 +287,7 @@ class Subscription:
     def _drop_oldest(self) -> bool:
         try:
             self._queue.popleft()
-        except IndexError:  # emptied by another thread
+        except IndexError:  # another thread has emptied the queue
             return False
         self.dropped += 1
         return True
@@ -296,7 +296,7 @@ class Subscription:
         """Run the callback for the next message; return its repetition if the message is from outside."""
         try:
             message, from_outside = self._queue.popleft()
-        except IndexError:  # dropped meanwhile
+        except IndexError:  # the message was dropped meanwhile
             return None
         self._call(message)
         return partial(self._call, message) if from_outside else None

@@ -18,7 +18,7 @@ class _ConfigReader(Protocol):
 
 
 class _Loader:
-    """Loader of a generated module, or without a file of the package `PACKAGE.cfg`."""
+    """Loader of a generated module; without a file, of the package `PACKAGE.cfg`."""
 
     def __init__(self, package: str, file: Path | None) -> None:
         self._package = package
@@ -38,7 +38,7 @@ class _Loader:
 
 
 def find_cfg(fullname: str, package: str, name: str) -> ModuleSpec | None:
-    """Find `PACKAGE.cfg`, or with a name one of its modules; None if the package has no such file."""
+    """Find `PACKAGE.cfg`, or with `name` one of its modules; None if the package has no such file."""
     folder = find_package(package)
     if folder is None or not os.path.isdir(folder / "cfg"):
         return None

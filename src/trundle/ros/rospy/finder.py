@@ -33,7 +33,7 @@ class RosFinder:
 
     def __init__(self) -> None:
         self._is_searching = False
-        """True while a search for packages is in progress, whose own imports are not searched for."""
+        """True during a search for packages; imports of the search itself are not searched."""
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None = None, target: ModuleType | None = None
@@ -92,7 +92,7 @@ class RosFinder:
 
 
 def install() -> None:
-    """Append the finder, and advice to tracebacks of missing modules and Python 2 programs; once."""
+    """Append the finder, once; tracebacks of missing modules and Python 2 programs then end with advice."""
     if any(isinstance(finder, RosFinder) for finder in sys.meta_path):
         return
     sys.meta_path.append(RosFinder())
@@ -110,7 +110,7 @@ def install() -> None:
 
 
 def _loader(loader: "Any") -> "Loader":
-    """Type a loader by its methods, as importlib.abc takes long to import."""
+    """Annotate loaders by their methods, as importlib.abc takes long to import."""
     return loader
 
 
@@ -149,7 +149,7 @@ def _find_in_workspace(name: str) -> ModuleSpec | None:
 
 
 def _package_at(name: str, folder: str) -> ModuleSpec | None:
-    """Package in a folder of another name, by setup.py's package_dir."""
+    """Load a package from a folder of another name, as setup.py's package_dir says."""
     from importlib.util import spec_from_file_location
 
     init = os.path.join(folder, "__init__.py")

@@ -123,7 +123,7 @@ def _generate(
     classes = _classes if classes is None else classes
     if spec.type in classes:
         return classes[spec.type]
-    md5 = md5sum(spec, find)  # also refuses a type that contains itself
+    md5 = md5sum(spec, find)  # raises for a type that contains itself, too
     inner = {
         field.base: _generate(find(field.base), find, "msg", classes) if field.is_message else _TIMES[field.base]
         for field in spec.fields

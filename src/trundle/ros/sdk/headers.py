@@ -1,4 +1,4 @@
-"""Folders of generated headers: of a package's own types, and of the types that its sources include."""
+"""Folders of generated headers: for a package's own types, and for other types that its sources include."""
 
 import os
 import re
@@ -20,16 +20,16 @@ _NOT_SEARCHED = frozenset({"build", "devel", "install"})
 
 
 class Headers:
-    """Writer of headers: each once, with those that it includes."""
+    """Writer of headers; it writes each header once, with the headers that this includes."""
 
     def __init__(self, packages: Mapping[str, Path], own: Path, shared: Path, *, provided: Path) -> None:
         """Create a writer.
 
         Args:
             packages: name → folder of the workspace's packages.
-            own: folder for the headers of their types.
-            shared: folder for those of other packages.
-            provided: folder of the development kit, whose own headers are not generated.
+            own: folder for the headers of these packages' types.
+            shared: folder for the headers of other packages' types.
+            provided: folder of the development kit's headers, which are not generated again.
         """
         self._packages = packages
         self._own, self._shared = own, shared
@@ -84,7 +84,7 @@ class Headers:
                 self.write_message(nested)
 
     def _write_known(self, type_name: str) -> None:
-        """Write what a header's name stands for, if it is a message or a service."""
+        """Write the header of a name if it is that of a message or a service."""
         base = type_name.removesuffix("Request").removesuffix("Response")
         for candidate in dict.fromkeys((type_name, base)):
             try:
@@ -99,7 +99,7 @@ class Headers:
     def _write(self, type_name: str, text: str) -> None:
         package, _, name = type_name.partition("/")
         path = (self._own if package in self._packages else self._shared) / package / f"{name}.h"
-        if not path.is_file() or path.read_text(encoding="utf-8") != text:  # a new time would compile all again
+        if not path.is_file() or path.read_text(encoding="utf-8") != text:  # a new time recompiles all
             path.parent.mkdir(parents=True, exist_ok=True)
             write_atomically(path, text)
 

@@ -26,9 +26,9 @@ class Kit(NamedTuple):
     """Compiled kit."""
 
     sources: Path
-    """Folder with a folder per package."""
+    """Folder of the sources, with a folder for each package."""
     folder: Path
-    """Folder of `lib`, the libraries, and `include`, generated headers of messages."""
+    """Folder with `lib`, the compiled libraries, and `include`, the generated headers of messages."""
 
 
 def kit_sources() -> Path:
@@ -44,18 +44,18 @@ def compiled_kit(toolchain: Toolchain, environment: Mapping[str, str], *, flags:
 
     Args:
         toolchain: compiler and tools.
-        environment: variables; XDG_CACHE_HOME names the folder of caches.
+        environment: environment variables; XDG_CACHE_HOME names the folder of caches.
         flags: additional flags of the compiler, such as -fsanitize=address.
 
     Raises:
-        UsageError: it cannot be compiled; the text ends with the compiler's.
+        UsageError: the kit cannot be compiled; the text ends with the compiler's output.
     """
     sources = kit_sources()
     root = Path(environment.get("XDG_CACHE_HOME") or home_folder(environment) / ".cache") / "trundle" / "sdk"
     try:
         root.mkdir(mode=0o700, parents=True, exist_ok=True)
         if not is_owned_by_user(root):
-            raise UsageError(f"{root} is writable by another user, whose libraries would be loaded; remove it")
+            raise UsageError(f"{root} is writable by another user, who could replace the libraries in it; remove it")
         folder = root / _digest(sources, toolchain, flags)
         folder.mkdir(exist_ok=True)
         lock = FileLock(folder)
@@ -90,7 +90,7 @@ def _compile(sources: Path, folder: Path, toolchain: Toolchain, environment: Map
 
 
 def _digest(sources: Path, toolchain: Toolchain, flags: str) -> str:
-    """Return a name for what the kit is made of; a Trundle of another release compiles its own."""
+    """Return a name that depends on the sources, compiler and flags: each release of Trundle compiles its own kit."""
     digest = hashlib.sha256(f"{toolchain.compiler}\n{toolchain.version}\n{toolchain.boost}\n{flags}".encode())
     generator = Path(message_header.__file__)
     for path in [generator, *sorted(path for path in sources.rglob("*") if path.is_file())]:
@@ -99,7 +99,7 @@ def _digest(sources: Path, toolchain: Toolchain, flags: str) -> str:
 
 
 def header_packages() -> list[str]:
-    """Return the packages that need no library of C++: of messages, Python and tools."""
+    """Return the packages without a C++ library to link: those of messages, Python and tools."""
     folders = [*(ASSETS / "messages/definitions").iterdir(), *(ASSETS / "messages/standard").iterdir()]
     folders += (ASSETS / "messages/published").iterdir()
     return sorted({*(path.stem for path in folders), *_WITHOUT_LIBRARIES} - _WITH_LIBRARIES)

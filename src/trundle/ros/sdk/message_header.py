@@ -1,4 +1,4 @@
-"""C++ headers of messages and services, with the names that gencpp gives."""
+"""C++ headers of messages and services, with gencpp's names."""
 
 import re
 from collections.abc import Iterable, Sequence
@@ -22,7 +22,7 @@ _SUFFIXES = {"uint64": "ULL", "int64": "LL", "uint32": "u", "uint16": "u", "uint
 
 
 class Definitions(Protocol):
-    """What headers are made of: `Messages` has it."""
+    """Definitions of messages from which headers are made; `Messages` implements it."""
 
     def fields(self, type_name: str) -> dict[str, str]:
         """Field names → ROS types."""
@@ -37,7 +37,7 @@ class Definitions(Protocol):
         ...
 
     def definition(self, type_name: str) -> str:
-        """Definition with those of nested types."""
+        """Definition, followed by those of nested types."""
         ...
 
 
@@ -46,7 +46,7 @@ class _Field(NamedTuple):
     element: str
     """Type of the field, or of its elements."""
     length: int | None
-    """None: a single value, 0: an array of any length, else a fixed number."""
+    """None: a single value; 0: an array of any length; else the fixed length."""
 
     @property
     def is_message(self) -> bool:
@@ -67,7 +67,7 @@ class _Field(NamedTuple):
         return f"std::vector<{self.cpp_element}, {_ALLOCATED}<{self.cpp_element}> >"
 
     def initial(self, allocator: str) -> str:
-        """Initializer; with an allocator, for what has one."""
+        """Member initializer; with an allocator, for types that take one."""
         if self.length or self.element in _TIMES:
             return f"{self.name}()" if self.length is None or self.length else f"{self.name}({allocator})"
         if self.length is None and self.element in _NUMBERS:
@@ -75,7 +75,7 @@ class _Field(NamedTuple):
         return f"{self.name}({allocator})"
 
     def filling(self, allocator: str) -> str:
-        """Statement that fills a fixed array; "": none is needed."""
+        """Statement that fills an array of fixed length; empty if none is needed."""
         if not self.length or self.element in _TIMES:
             return ""
         value = "0" if self.element in _NUMBERS else f"{self.cpp_element}({allocator})"
@@ -83,12 +83,12 @@ class _Field(NamedTuple):
 
 
 def message_header(messages: Definitions, type_name: str, *, of_service: ServiceType | None = None) -> str:
-    """Return the header of a message; of a service's request or response, with the service's traits.
+    """Return the header of a message; for a request or response, it has the service's traits, too.
 
     Args:
         messages: definitions.
         type_name: such as 'geometry_msgs/Twist'.
-        of_service: service whose request or response it is.
+        of_service: service to which the request or response belongs.
     """
     package, _, name = type_name.partition("/")
     fields = [_field(field, kind) for field, kind in messages.fields(type_name).items()]

@@ -21,14 +21,14 @@ _CMAKE_ERROR = re.compile(
 
 
 class BuildResult(NamedTuple):
-    """What became of a package's targets."""
+    """Result of the build of a package."""
 
     is_configured: bool
     """False: CMake stopped, and nothing is built."""
     missing: tuple[str, ...]
     """Packages and libraries that CMake did not find."""
     failures: dict[str, str]
-    """Target, or file of it → first error."""
+    """Target, or file that it makes → first error."""
 
 
 class PackageBuilder:
@@ -54,8 +54,8 @@ class PackageBuilder:
             build: folder of the packages' build folders.
             devel: devel space.
             install: install space.
-            underlays: devel spaces of workspaces below this one.
-            definitions: words for CMake, such as -DCMAKE_BUILD_TYPE=Debug.
+            underlays: devel spaces of the workspaces that this one extends.
+            definitions: arguments of CMake, such as -DCMAKE_BUILD_TYPE=Debug.
             environment: variables of the tools.
         """
         self._toolchain = toolchain
@@ -128,7 +128,7 @@ def _failures(text: str) -> dict[str, str]:
 
 
 def _error(line: str) -> str:
-    """Return the error of a compiler's or linker's line; "" if it has none."""
+    """Return the error in a line of a compiler or linker; empty if there is none."""
     if (undefined := _UNDEFINED.search(line)) is not None:
         return f"undefined: {undefined['text']}"
     if (library := _NO_LIBRARY.search(line)) is not None:

@@ -18,19 +18,19 @@ _HEADER_FOLDERS = ("/usr/include", "/usr/local/include", "/opt/homebrew/include"
 
 
 class Toolchain(NamedTuple):
-    """Programs that compile C++, and where Boost is."""
+    """Programs that compile C++, and the prefix of Boost."""
 
     compiler: str
     version: str
-    """What the compiler says about itself."""
+    """Output of the compiler's `--version`."""
     cmake: str
     ninja: str
     boost: Path | None
-    """Prefix of a Boost that the compiler does not find by itself."""
+    """Prefix of Boost, if the compiler does not find it by itself."""
 
 
 def find_toolchain(environment: Mapping[str, str]) -> Toolchain:
-    """Find what compiles C++ here.
+    """Find the programs of this machine that compile C++.
 
     Raises:
         UsageError: something is missing; the text says how to install it.
@@ -62,17 +62,17 @@ def find_toolchain(environment: Mapping[str, str]) -> Toolchain:
 
 def _compiler_advice() -> str:
     if sys.platform == "darwin":
-        return "xcode-select --install brings one"
+        return "install one with xcode-select --install"
     return "install one, such as with apt install g++ or dnf install gcc-c++"
 
 
 def _program(name: str, path: str) -> str | None:
-    """Return a program on PATH, or of Python's packages."""
+    """Return a program's path: on PATH, or from a Python package."""
     return shutil.which(name, path=path) or shutil.which(name, path=sysconfig.get_path("scripts"))
 
 
 def _boost(environment: Mapping[str, str]) -> Path | None:
-    """Return the prefix of Boost's headers: the machine's, else of the Python package cmeel-boost."""
+    """Return the prefix of Boost's headers: the machine's, else that of the Python package cmeel-boost."""
     named = environment.get("BOOST_ROOT")
     folders = [Path(named, "include")] if named else []
     folders += [Path(folder) for folder in _HEADER_FOLDERS]

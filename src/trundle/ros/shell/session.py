@@ -1,4 +1,4 @@
-"""Runs a shell with the commands; removes its files at the end."""
+"""Runs a shell in which the commands come first on PATH; removes its temporary files at the end."""
 
 import os
 import shlex

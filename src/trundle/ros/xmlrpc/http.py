@@ -68,7 +68,7 @@ def parse_head(data: bytes) -> Head:
 
 
 def browser_refusal(head: Head) -> str | None:
-    """Return the reason to refuse a request that a web page may have sent; None if a program sent it.
+    """Return the reason to refuse a request that a web page may have sent; None for a program's request.
 
     A page can reach loopback. It cannot send text/xml to another origin without a preflight request, its POST carries
     an Origin, and current browsers add Sec-Fetch-Site. Programs: rospy, roscpp, rosnodejs, goroslib, rosjava and

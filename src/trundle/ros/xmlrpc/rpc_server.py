@@ -24,7 +24,7 @@ _BACKLOG = 512
 """Length of the accept queue: a big launch starts a hundred nodes within a second."""
 
 _MAX_CLIENTS = 512
-"""Limit of open connections; beyond it the longest idle one is closed, as after an idle timeout."""
+"""Maximum number of open connections; beyond it, the one that was idle longest is closed, as after an idle timeout."""
 
 _LARGE_BYTES = 1 << 20
 """Size from which a call is decoded in a thread: 64 MB of small values take seconds, and other calls must go on."""
@@ -120,7 +120,7 @@ class RpcServer:
         return head.keeps_alive
 
     def _warn(self, reason: str) -> None:
-        """Log the first refusal only: a page can send thousands."""
+        """Log only the first refusal: a web page can send thousands of requests."""
         if not self._has_warned:
             self._has_warned = True
             _log.warning("port %d refused an HTTP request: %s", self.port, reason)

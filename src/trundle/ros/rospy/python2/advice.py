@@ -14,7 +14,7 @@ _PYTHON2_ERRORS = (SyntaxError, NameError, ModuleNotFoundError, AttributeError, 
 
 
 def python2_advice(error: BaseException) -> str | None:
-    """Return how to run the program that raised an error; None if neither it nor the faulty module is Python 2."""
+    """Return how to run the program that raised an error; None if neither the program nor the module is Python 2."""
     program = sys.argv[0] if getattr(sys, "argv", None) else ""
     if not isinstance(error, _PYTHON2_ERRORS) or not os.path.isfile(program):
         return None
@@ -28,7 +28,7 @@ def python2_advice(error: BaseException) -> str | None:
 
 def _is_python2(file: str) -> bool:
     try:
-        changes(file)  # raises for a program that is invalid in both
+        changes(file)  # raises for a program that is invalid in both versions
     except (OSError, SyntaxError):
         return False
     return is_python2_file(file)

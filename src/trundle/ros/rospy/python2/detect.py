@@ -30,7 +30,7 @@ def is_python2(source: str) -> bool:
         return True
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # about escapes in strings; compiling shows them
+            warnings.simplefilter("ignore")  # compiling warns of invalid escapes in strings
             tree = ast.parse(source)
     except (SyntaxError, ValueError):
         return True
@@ -69,7 +69,7 @@ def _imports(tree: ast.Module) -> list[ast.Import | ast.ImportFrom]:
 
 
 def _is_fallback(node: ast.Try) -> bool:
-    """True if a missing module or name is caught, as in programs for both."""
+    """True if the program catches a missing module or name, as programs for both versions do."""
     kinds = [handler.type for handler in node.handlers if handler.type is not None]
     caught = {name.id for kind in kinds for name in ast.walk(kind) if isinstance(name, ast.Name)}
     statements = [*node.body, *(statement for handler in node.handlers for statement in handler.body)]

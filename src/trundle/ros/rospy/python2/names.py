@@ -64,7 +64,7 @@ def python2_divide_in_place(left: Any, right: Any) -> Any:
     if numpy is not None and _are_integer_arrays(numpy, left, right):
         left //= right
     elif numpy is not None and isinstance(left, numpy.ndarray) and left.dtype.kind in "iub":
-        left[...] = left / right  # Python 2's numpy casts back
+        left[...] = left / right  # Python 2's numpy casts the result back
     else:
         left /= right
     return left

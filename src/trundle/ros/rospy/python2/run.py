@@ -19,7 +19,7 @@ def main() -> None:
     sys.excepthook = _show
     try:
         code, module = _load(script)
-    except KeyboardInterrupt:  # nothing of the script ran
+    except KeyboardInterrupt:  # no part of the script has run
         os._exit(_INTERRUPTED)
     sys.modules["__main__"] = module
     exec(code, module.__dict__)

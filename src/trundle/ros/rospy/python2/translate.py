@@ -99,7 +99,7 @@ def _line_numbers(source: str, text: str) -> list[int]:
 
 
 def _renumber(tree: ast.AST, lines: list[int]) -> None:
-    """Set the nodes' line numbers; columns would be those of the translated text, so they are unset."""
+    """Set the nodes' line numbers, and unset the columns, which would be those of the translated text."""
     for node in ast.walk(tree):
         if isinstance(node, ast.expr | ast.stmt | ast.excepthandler | ast.arg | ast.keyword | ast.alias):
             node.lineno = lines[node.lineno]

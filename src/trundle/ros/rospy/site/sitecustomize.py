@@ -23,7 +23,7 @@ def _install():
 
 
 def _install_from_libraries():
-    """Install the finder in another Python of the same version, which can use this one's libraries after its own."""
+    """Install the finder in another Python of the same version, which uses Trundle's libraries after its own."""
     tag, _, libraries = os.environ.get("TRUNDLE_LIBRARIES", "").partition(":")
     if tag == sys.implementation.cache_tag:
         from site import addsitedir
@@ -45,5 +45,5 @@ try:
     if not _install():
         _install_from_libraries()
     _run_hidden()
-except KeyboardInterrupt:  # Python would call it a fatal error, with two tracebacks
+except KeyboardInterrupt:  # Python would report Ctrl-C as a fatal error, with two tracebacks
     os._exit(_INTERRUPTED)

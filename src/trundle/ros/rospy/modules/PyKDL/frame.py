@@ -50,7 +50,7 @@ class Frame:
 
     @staticmethod
     def Identity() -> "Frame":
-        """The parent itself."""
+        """Frame that equals its parent."""
         return Frame()
 
     @staticmethod

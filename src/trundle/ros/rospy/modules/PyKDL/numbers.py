@@ -50,7 +50,7 @@ class Numbers:
 
     if TYPE_CHECKING:
 
-        def __iter__(self) -> "Iterator[float]": ...  # by `__getitem__`
+        def __iter__(self) -> "Iterator[float]": ...  # iteration by `__getitem__`
 
     def __add__(self, other: object) -> "Self":
         if type(other) is not type(self):

@@ -16,10 +16,10 @@ class _Solver:
         self._chain = chain
 
     def updateInternalDataStructures(self) -> None:
-        """Do nothing: the chain is read each time."""
+        """Do nothing: each call reads the chain."""
 
     def _posed(self, q: JntArray, count: int) -> Generator[tuple[Segment, bool, float]]:
-        """Segments with the value of their joints, 0 for fixed ones."""
+        """Segments, each with the value of its joint; 0 for a fixed joint."""
         used = 0
         for number in range(count):
             segment = self._chain.getSegment(number)

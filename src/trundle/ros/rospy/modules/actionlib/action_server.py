@@ -37,7 +37,8 @@ class ActionServer(ActionTypes):
             ActionSpec: XAction class.
             goal_cb: called with the ServerGoalHandle of each new goal.
             cancel_cb: called with the ServerGoalHandle of each goal to cancel.
-            auto_start: start at once; callbacks may then run before the constructor ends. Better call `start`.
+            auto_start: start at once; callbacks may then run before the constructor ends, so rather pass False and
+                call `start`.
 
         Raises:
             ActionException: the class is not an action.
@@ -200,7 +201,7 @@ class ActionServer(ActionTypes):
                     if handle.set_cancel_requested():
                         self.cancel_callback(handle)
             if goal_id.id and self._find_tracker(goal_id.id) is None:
-                tracker = StatusTracker(goal_id, GoalStatus.RECALLING)  # its goal may still arrive
+                tracker = StatusTracker(goal_id, GoalStatus.RECALLING)  # the goal may still arrive
                 tracker.handle_destruction_time = rospy.Time.now()
                 self.status_list.append(tracker)
             self.last_cancel = max(self.last_cancel, goal_id.stamp)

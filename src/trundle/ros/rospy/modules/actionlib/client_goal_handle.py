@@ -19,7 +19,7 @@ _TERMINAL = (
 
 
 class ClientGoalHandle:
-    """Reads the state of one goal, and cancels it. The client forgets the goal with its last handle."""
+    """Reads the state of one goal, and cancels it. The client forgets a goal when its last handle is deleted."""
 
     def __init__(self, comm_state_machine: Any) -> None:
         self.comm_state_machine = comm_state_machine

@@ -58,7 +58,7 @@ _STATUSES = (
     GoalStatus.SUCCEEDED,
     GoalStatus.ABORTED,
 )
-# A column for each status above: the states passed through, "-" for no change, "!" for a status that is not allowed.
+# A column for each of `_STATUSES`: the states passed through; "-": no change, "!": not allowed.
 _TABLE = {
     CommState.WAITING_FOR_GOAL_ACK: "P  A  PW PR PW AE AEW AW AW",
     CommState.PENDING: "-  A  W  R  RW AE AEW AW AW",

@@ -41,7 +41,7 @@ class SimpleActionClient:
         self.active_cb: Callable[..., object] | None = None
         self.feedback_cb: Callable[..., object] | None = None
         self._is_sending = False
-        """True while a goal is sent: its first transition may precede its handle."""
+        """True while a goal is being sent: its first transition may come before its handle is stored."""
 
     def wait_for_server(self, timeout: genpy.Duration = _FOREVER) -> bool:
         """Wait until the server is connected; False if that takes longer than the timeout (0: no limit)."""

@@ -22,7 +22,7 @@ def shortest_angular_distance(from_angle: float, to_angle: float) -> float:
 
 
 def two_pi_complement(angle: float) -> float:
-    """Turn to the same angle in the other direction."""
+    """Turn in the other direction that leads to the same angle."""
     if abs(angle) > _TURN:
         angle = fmod(angle, _TURN)
     return angle - _TURN if angle > 0 else angle + _TURN

@@ -68,7 +68,7 @@ class Cache(SimpleFilter):
         return self.cache_times[0] if self.cache_times else None
 
     def getLast(self) -> Any:
-        """First message kept whose stamp is the last one's, or newer; None without messages."""
+        """First kept message with the latest stamp; None without messages."""
         latest = self.getLatestTime()
         return None if latest is None else self.getElemAfterTime(latest)
 

@@ -18,7 +18,7 @@ def message_class(type_name: str, md5sum: str, definition: str) -> Any:
     """
     try:
         installed = genpy.message.get_message_class(type_name)
-    except Exception:  # a broken installed package is no reason not to read the bag
+    except Exception:  # an installed package may be broken, while the bag has the definition
         installed = None
     if installed is not None and installed._md5sum == md5sum:
         return installed

@@ -1,4 +1,4 @@
-"""Python's logging configured as by rospy: all records to a file, those of the logger `rosout` to the terminal, too."""
+"""Python's logging, as rospy configures it: all records go to a file, those of `rosout` also to the terminal."""
 
 import logging
 import os
@@ -27,7 +27,7 @@ class LoggingException(Exception):
 
 
 class RospyLogger(logging.Logger):
-    """Logger that names the program's function, not rospy's, with its class."""
+    """Logger whose records name the program's function with its class, not rospy's function."""
 
     def findCaller(self, stack_info: bool = False, stacklevel: int = 1) -> tuple[str, int, str, str | None]:
         """File, line and function that called rospy's or logging's function."""

@@ -210,7 +210,7 @@ def _wake_sleepers() -> None:
     from .rostime import get_rostime_cond
 
     changed = get_rostime_cond()
-    if changed.acquire(blocking=False):  # a signal may have interrupted the thread that holds it
+    if changed.acquire(blocking=False):  # a signal may have interrupted the thread that holds the lock
         changed.notify_all()
         changed.release()
 

@@ -1,4 +1,4 @@
-"""Node of this process: a node of `trundle.ros` that carries bytes; message classes serialize them."""
+"""Node of this process: a node of `trundle.ros` that sends and receives bytes; message classes serialize."""
 
 import logging
 import os
@@ -58,7 +58,7 @@ class _Log(NodeLog):
 
     def _write(self, level: str, text: str) -> None:
         logging.getLogger("rospy.internal").log(_LEVELS.get(level, logging.CRITICAL), "%s", text)
-        if text.startswith("unable to register"):  # a name that the master refuses
+        if text.startswith("unable to register"):  # the master refuses the name
             core.logfatal("%s", text)
         if "keeps trying" in text and LEVELS[level] >= LEVELS["warn"]:
             master = os.environ.get("ROS_MASTER_URI", "http://localhost:11311")
@@ -76,7 +76,7 @@ class _Workers:
         self._lock = threading.Lock()
 
     def run_soon(self, work: Callable[[], object]) -> None:
-        """Run a function on a thread that nothing else uses meanwhile."""
+        """Run a function on a thread that runs nothing else meanwhile."""
         with self._lock:
             is_free = self._idle > 0
             self._idle -= is_free
@@ -159,7 +159,7 @@ def run(coroutine: Callable[[], Coroutine[Any, Any, _T]]) -> _T | None:
         return None
     try:
         return loop.run(coroutine())
-    except CancelledError:  # by shutdown
+    except CancelledError:  # cancelled by the shutdown
         return None
 
 

@@ -54,7 +54,7 @@ class Publication:
         self.closed = False
         plain_codec = codec(data_class) if is_plain(data_class) else None
         self.sender = _message_codec.DirectSender(data_class, plain_codec, data_class._has_header)
-        """Sends short messages while nothing waits, and numbers all messages."""
+        """Fast path: sends short messages while none wait, and numbers all messages."""
         self._turn = threading.RLock()
         """Held while a message is numbered and sent."""
         self._publisher: FramePublisher | None = None
@@ -124,11 +124,11 @@ class Publication:
                 self.latch = message
             elif not publisher._subscriber_count:
                 return
-            self.sender.is_active = False  # other threads' messages come after this one
+            self.sender.is_active = False  # the lock makes other threads' messages come after this one
             self.sender.sequence += 1
             is_ahead = publisher.publish_frame(framed(self.sender.sequence, message))
             self.sender.is_active = publisher.sends_directly
-        if is_ahead:  # else a thread that only replaces messages keeps the interpreter from the one that sends them
+        if is_ahead:  # else a thread that only replaces messages would keep the GIL from the sending thread
             time.sleep(_CONGESTED_S)
         self._wait_for_slowest(publisher)
 
@@ -215,9 +215,9 @@ class FramePublisher(GraphPublisher):
         return bool(self._direct) and not (self.latch or self._is_flush_scheduled or self._outbox)
 
     def publish_frame(self, pieces: Pieces) -> bool:
-        """Send a serialized message, where there are subscribers or messages are latched; thread-safe.
+        """Send a serialized message if there are subscribers or the topic is latched; thread-safe.
 
-        True if it replaced a message that had not been sent yet.
+        Returns True if it replaced a message that had not been sent yet.
         """
         lost = self._lost
         self._send(pieces)

@@ -77,7 +77,7 @@ def get_time() -> float:
 
 
 def set_rostime_initialized(val: bool) -> None:
-    """Allow the time to be read."""
+    """Allow programs to read the time."""
     global _rostime_initialized
     _rostime_initialized = val
 

@@ -39,7 +39,8 @@ class Concurrence(Container):
             default_outcome: outcome if no condition holds.
             input_keys: keys that are read.
             output_keys: keys that are written.
-            outcome_map: outcome → {label: outcome}, conditions that must all hold; the outcome with most of them wins.
+            outcome_map: outcome → {label: outcome}, conditions that must all hold; of several outcomes, the one with
+                most conditions wins.
             outcome_cb: called with {label: outcome}; returns the outcome, or None.
             child_termination_cb: called with {label: outcome or None} when a state ends; True ends the others.
 

@@ -8,7 +8,7 @@ from typing import Any, NoReturn
 
 
 class _PlainUnpickler(pickle.Unpickler):
-    """Reads only numbers, strings, lists and dictionaries: a pickle of a class would run its sender's code."""
+    """Unpickler of numbers, strings, lists and dictionaries only: a pickle of a class could run the sender's code."""
 
     def find_class(self, module: str, name: str) -> "NoReturn":
         raise pickle.UnpicklingError(f"userdata of the type {module}.{name} is not accepted from the network")
@@ -20,7 +20,7 @@ def encode(data: Mapping[str, Any]) -> str:
     for key, value in data.items():
         try:
             pickle.dumps(value, 2)
-        except Exception:  # a class of the user may raise anything
+        except Exception:  # pickling a user's class may raise anything
             continue
         plain[key] = value
     return base64.b64encode(pickle.dumps(plain, 2)).decode()

@@ -179,7 +179,7 @@ class SimpleActionState(smach.State):
                 is_canceled = True
 
     def _outcome(self) -> str:
-        if self._status != SimpleActionState.INACTIVE:  # shut down before the end
+        if self._status != SimpleActionState.INACTIVE:  # the node shut down before the goal's end
             return "aborted"
         if self._goal_status == GoalStatus.SUCCEEDED:
             return "succeeded"

@@ -54,7 +54,7 @@ class Transformer:
         return self._buffer._allFramesAsDot(current_time) if current_time else self._buffer._allFramesAsDot()
 
     def allFramesAsString(self) -> str:
-        """One sentence a frame."""
+        """Description of the tree, with a sentence for each frame."""
         return self._buffer.all_frames_as_string()
 
     def setTransform(self, transform: Any, authority: str = "default_authority") -> None:
@@ -272,7 +272,7 @@ def _frame_twist(
     Args:
         transformer: source of the transforms.
         tracking: moving frame.
-        observation: frame that it moves in.
+        observation: frame in which it moves.
         reference: frame of the result's axes.
         reference_point: (x, y, z) where the linear velocity holds, in `reference_point_frame`.
         reference_point_frame: frame of `reference_point`.

@@ -58,7 +58,7 @@ class BufferCore:
     def lookup_transform_full_core(
         self, target_frame: str, target_time: genpy.Time, source_frame: str, source_time: genpy.Time, fixed_frame: str
     ) -> Any:
-        """TransformStamped of the source at one time in the target at another; the fixed frame relates the times.
+        """TransformStamped of the source at one time in the target at another time, related by the fixed frame.
 
         Raises:
             TransformException: there is no such transform.
@@ -125,14 +125,14 @@ class BufferCore:
         return text or "{}"
 
     def all_frames_as_string(self) -> str:
-        """One sentence a frame."""
+        """Description of the tree, with a sentence for each frame."""
         return "".join(f"Frame {frame} exists with parent {parent}.\n" for frame, parent, *_ in self._statistics())
 
     def _allFramesAsDot(self, current_time: genpy.Time | None = None) -> str:
         """The tree as a graph for Graphviz; `current_time` is a rospy.Time."""
         rows = self._statistics()
         if not rows:
-            return 'digraph G {\n"no tf data recieved"}'  # as tf2 spells it
+            return 'digraph G {\n"no tf data recieved"}'  # the word as tf2 misspells it
         lines: list[str] = []
         for frame, parent, authority, rate, newest, oldest in rows:
             label = f"Broadcaster: {authority}\\nAverage rate: {rate:.3f} Hz\\nMost recent transform: {newest:.3f} "

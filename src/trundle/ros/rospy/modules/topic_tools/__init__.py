@@ -10,7 +10,7 @@ _NOTICE_S = 5.0
 
 
 class _SubscribedAtOnce(type):
-    """Metaclass that subscribes a node that is not lazy after its constructor."""
+    """Metaclass that, after the constructor, subscribes a node that is not lazy."""
 
     def __call__(cls, *args: Any, **kwargs: Any) -> Any:
         node = super().__call__(*args, **kwargs)

@@ -175,7 +175,7 @@ class Graph:
         for node in names:
             if time.time() > self.last_node_refresh.get(node, 0.0) + self.node_stale:
                 updated = query(node) or updated
-                # at different times, so that one update does not query all nodes
+                # stale at different times, so that one update does not query all nodes
                 self.last_node_refresh[node] = time.time() + random.random() * self.node_stale / 5.0
             time.sleep(_PAUSE_S)
         return updated

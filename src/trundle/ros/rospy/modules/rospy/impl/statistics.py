@@ -22,9 +22,9 @@ class SubscriberStatisticsLogger:
         self.subscriber_name = topic
         self.connections: dict[str, ConnectionStatisticsLogger] = {}
         self.min_elements = get_param("/statistics_window_min_elements", 10)
-        """Messages below which the window grows."""
+        """Number of messages below which the window grows."""
         self.max_elements = get_param("/statistics_window_max_elements", 100)
-        """Messages above which the window shrinks."""
+        """Number of messages above which the window shrinks."""
         self.min_window = get_param("/statistics_window_min_size", 4)
         """Shortest window [s]."""
         self.max_window = get_param("/statistics_window_max_size", 64)
@@ -42,7 +42,7 @@ class SubscriberStatisticsLogger:
             if (connection := self.connections.get(publisher)) is None:
                 connection = self.connections[publisher] = ConnectionStatisticsLogger(self, publisher)
             connection.callback(message, size)
-        except Exception as error:  # parameters of another type, a stamp out of range
+        except Exception as error:  # such as parameters of another type, or a stamp out of range
             core.logerr("Unexpected error during statistics measurement: %s", error)
 
     def shutdown(self) -> None:
