@@ -40,7 +40,7 @@ def find_launch_node(
 def _split(arguments: str) -> list[str]:
     try:
         return shlex.split(arguments)
-    except ValueError:  # an open quote, reported when the node starts
+    except ValueError:  # a quote is not closed, which is reported when the node starts
         return arguments.split()
 
 

@@ -126,7 +126,7 @@ _Sensor = TypeVar("_Sensor", "CameraSensor", "InstrumentSensor")
 
 
 def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", simulation: "Simulation") -> list[_Sensor]:
-    """Attach the sensors' plugins, which publish their readings; return the sensors without one, in order."""
+    """Attach the sensors' plugins, which publish the readings; return the sensors without a plugin, in order."""
     from trundle.gazebo.plugins import PluginNames
     from trundle.ros import Publisher
 

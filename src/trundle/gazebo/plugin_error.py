@@ -1,4 +1,4 @@
-"""Errors in the code of user plugins, as a sentence and the traceback of that code."""
+"""Errors in the code of users' plugins, as a sentence and the traceback of that code."""
 
 import traceback
 from itertools import dropwhile

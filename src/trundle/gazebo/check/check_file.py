@@ -90,7 +90,7 @@ def check(file: str, environment: Mapping[str, str], *, start: Path, collisions:
     try:
         piped = read_piped(file)
         if _is_launch(file, piped):
-            from .launch_file import check_launch  # lazy: each loads rooms that the other does not need
+            from .launch_file import check_launch  # lazy: each module loads rooms that the other does not need
 
             findings = check_launch(file, environment, packages=packages, report=report, piped=piped)
         else:

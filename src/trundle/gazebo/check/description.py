@@ -92,7 +92,7 @@ def check_description(
 def _report_physics(flat: World, report: Diagnostics, *, collisions: bool) -> None:
     try:
         if not physics_accepts(flat):
-            from trundle.sim.physics import compile_world  # slow to load, and needed for few robots
+            from trundle.sim.physics import compile_world  # slow to load, and only few robots need it
 
             compile_world(flat, report, cut_meshes=collisions)
         report_wheels(flat, report)

@@ -1,7 +1,7 @@
 """JSON of a description, the output of `trundle check --json`.
 
-Every pose is [x y z roll pitch yaw] in its own model's frame [m, rad]; an infinite limit is null; values are as
-resolved from the file, before physics repairs any.
+Every pose is [x y z roll pitch yaw] in its own model's frame [m, rad]; an infinite limit is null; values are those of
+the file after resolution, before physics corrects any.
 """
 
 import math
@@ -47,7 +47,7 @@ def _model(model: Model) -> dict[str, object]:
 
 
 def _named_joints(model: Model) -> Iterator[tuple[Joint, str]]:
-    """Yield joints with unique names: with a link's name, as SDF before 1.7 allows, the suffix `_joint` is added."""
+    """Yield joints with unique names: one named like a link, as SDF before 1.7 allows, gets the suffix `_joint`."""
     link_names = {link.name for link in model.links}
     for joint in model.joints:
         yield joint, f"{joint.name}_joint" if joint.name in link_names else joint.name

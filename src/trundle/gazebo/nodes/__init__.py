@@ -1,4 +1,4 @@
-"""Built-in replacements for stock executables that launch files name; they run in this process."""
+"""Stand-ins for stock executables that launch files name; they run in this process."""
 
 import lazy_loader
 

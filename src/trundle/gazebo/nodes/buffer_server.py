@@ -64,7 +64,7 @@ class BufferServer:
         return 0
 
     async def _on_goal(self, goal: "tf2_msgs.LookupTransformGoal", accept: Callable[[], None]) -> ActionResult:
-        """Retry until the lookup succeeds or times out; the goal succeeds either way, with the error in the result."""
+        """Retry until the lookup succeeds or times out; the goal always succeeds, and the result holds the error."""
         accept()
         clock = self._node.clock
         end_ns = clock.now_ns() + to_nsec(goal.timeout)
@@ -98,7 +98,7 @@ class BufferServer:
         )
 
     def _identity(self, frame: str, stamp_ns: int) -> Transform:
-        """Return the identity transform of a frame, even an unknown one."""
+        """Return the identity transform of a frame, also of an unknown one."""
         latest = None if self._buffer.is_static(frame) else self._buffer.latest(frame)
         stamp_ns = stamp_ns or (latest.stamp_ns if latest is not None else 0)
         return Transform(

@@ -69,7 +69,7 @@ class _Video:
         self.rate_hz = rate_hz or float(self._stream.average_rate or 30)
         self._frames = self._container.decode(self._stream)
         self._lock = threading.Lock()
-        """Held while an image is read: closing the container meanwhile crashes the process."""
+        """Held while an image is read: closing the container at that time crashes the process."""
         self._is_closed = False
         self._errors = FFmpegError
 
@@ -199,8 +199,8 @@ class UsbCam(CameraDriver):
 class CvCamera(CameraDriver):
     """cv_camera/cv_camera_node.
 
-    Parameters, with the original's defaults: file (a video; it ends with it), else device_path, else device_id 0; rate
-    30, frame_id camera, image_width and image_height (the camera's), camera_info_url.
+    Parameters, with the original's defaults: file (a video; the node ends with it), else device_path, else device_id
+    0; rate 30, frame_id camera, image_width and image_height (the camera's), camera_info_url.
     """
 
     def read(self, settings: RosParameters) -> None:

@@ -195,7 +195,7 @@ CLIENTS = frozenset({("gazebo_ros", "gzclient"), ("gazebo_ros", "gazebo")})
 """Nodes that open the page of the simulated world."""
 
 ALWAYS_REPLACED = frozenset({"gazebo_ros", "sound_play"})
-"""Packages that are replaced even if installed: their programs would start another simulator, or need GStreamer."""
+"""Packages whose stand-ins always run: the original programs start another simulator, or need GStreamer."""
 
 _IN_PYTHON = (
     "arbotix_",
@@ -217,4 +217,4 @@ _IN_PYTHON = (
 ROSCPP = frozenset(
     key for key in BUILTIN_NODES if not key[0].startswith(_IN_PYTHON) and key[1] not in ("spawn_model", "urdf_spawner")
 )
-"""Nodes whose originals use roscpp, with other names of loggers."""
+"""Nodes whose originals use roscpp, which names loggers differently."""

@@ -39,8 +39,8 @@ class CmdVelSubscriber:
 class CmdVelMux:
     """Forwards one input at a time; `~active` publishes its name, or "idle".
 
-    `~yaml_cfg_file` names a file with `subscribers` (name, topic, timeout, priority) and `publisher` (output); topics
-    are private. An input stays active until it times out or one of higher priority publishes.
+    `~yaml_cfg_file` names a file with `subscribers` (name, topic, timeout, priority) and `publisher` (output); their
+    topics are private names. An input stays active until it times out or one of higher priority publishes.
     """
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:

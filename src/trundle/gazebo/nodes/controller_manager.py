@@ -18,7 +18,7 @@ _BEST_EFFORT, _STRICT = 1, 2
 
 
 class _ArgumentParser(argparse.ArgumentParser):
-    """Raises a UsageError instead of exiting."""
+    """Argument parser that raises a UsageError instead of exiting."""
 
     def error(self, message: str) -> NoReturn:
         raise UsageError(f"{message}; {self.format_usage().strip()}")
@@ -34,8 +34,8 @@ class _ControllerManagerClient:
     async def wait(self, timeout_s: float | None) -> None:
         """Wait for the services.
 
-        While the simulation loads, the timeout of a launch file is extended, since the first convex decomposition of
-        large meshes takes long. The original's default of 30 s is too short for a slow machine; the default is none.
+        While the simulation loads, a timeout is extended, since the first convex decomposition of large meshes takes
+        long. There is no default timeout: the original's 30 s are too short for a slow machine.
 
         Raises:
             RosError: timeout.
@@ -76,7 +76,7 @@ class _ControllerManagerClient:
 
 
 class Spawner:
-    """Loads and starts controllers; stops and unloads them when its node is shut down."""
+    """Loads and starts controllers; stops and unloads them when the node is shut down."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
@@ -145,7 +145,7 @@ class Spawner:
 
 
 class Unspawner:
-    """Stops controllers; starts them again when its node is shut down."""
+    """Stops controllers; starts them again when the node is shut down."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host

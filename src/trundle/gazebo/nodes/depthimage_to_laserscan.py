@@ -54,7 +54,7 @@ def scan_from_depths(
     empty = np.where(np.isinf(band).any(axis=0), np.inf, np.nan)
     columns = np.where(np.isfinite(nearest), nearest, empty)
     angle_min, angle_max = -math.atan(slopes[-1]), -math.atan(slopes[0])
-    # Columns are evenly spaced in the image, rays in angle: where two coincide, the nearer range is used.
+    # Columns are evenly spaced in the image, rays in angle; if two columns fall on one ray, the nearer range is used.
     increment = (angle_max - angle_min) / max(width - 1, 1)
     ray_indices = np.clip(np.rint((-np.arctan(slopes) - angle_min) / increment).astype(int), 0, width - 1)
     scan = np.full(width, np.nan)

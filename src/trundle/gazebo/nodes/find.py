@@ -59,7 +59,7 @@ class BuiltinReplacement:
 
 @dataclass(frozen=True, slots=True)
 class MissingNode:
-    """No executable and no replacement; the launch continues without the node."""
+    """There is neither an executable nor a stand-in; the launch continues without the node."""
 
     reason: str
 
@@ -150,7 +150,7 @@ def _compile_hint(folder: Path, package: str, name: str, env: Mapping[str, str],
 
 
 def _program_hint(package: str, folder: Path, env: Mapping[str, str]) -> str:
-    """Return a hint that lists a package's programs, for a program that is neither in it nor built by it."""
+    """Return a hint that lists a package's programs, for a program that the package neither has nor builds."""
     names = sorted(program_names(package, folder, env=env))
     more = f" and {len(names) - _MAX_LISTED_PROGRAMS} more" if len(names) > _MAX_LISTED_PROGRAMS else ""
     return f"; its programs: {', '.join(names[:_MAX_LISTED_PROGRAMS])}{more}" if names else ""
@@ -182,11 +182,11 @@ def missing_nodelet(
 def _find_missing_nodelet(
     arguments: str, find_package: FindPackage, env: Mapping[str, str], command_line: Sequence[str]
 ) -> MissingNode | None:
-    """Return the missing nodelet class of a nodelet command line; None if it is available."""
+    """Return the class of a nodelet command line if no stand-in has it; None if one has."""
     positional = [argument for argument in command_line if not argument.startswith("--")]
     match arguments.split():
         case ["load" | "standalone" as mode, name, *_] if name not in NODELETS:
-            remaining = positional[3 if mode == "load" else 2 :]  # without the class and its manager
+            remaining = positional[3 if mode == "load" else 2 :]  # the arguments after the class and the manager
             return MissingNode(missing_nodelet(name, find_package, env, remaining))
         case _:
             return None

@@ -56,7 +56,7 @@ class Display(Protocol):
         Args:
             node: the rviz node, for subscriptions and publications of its displays and tools.
             config: path of an .rviz file, which may not exist.
-            fixed_frame: overrides that of `config`.
+            fixed_frame: overrides the fixed frame of `config`.
         """
         ...
 

@@ -37,7 +37,7 @@ class FreeJoint:
     """[rad] or [m]"""
     continuous: bool = False
     position: float | None = None
-    """None: not published."""
+    """None: the position is not published."""
     velocity: float | None = None
     effort: float | None = None
     is_rising: bool = True
@@ -109,7 +109,7 @@ class JointSet:
             return
         if name in self.dependent:
             return
-        # The original ignores a zero of 0: the joint is centred if 0 lies outside its limits.
+        # The original ignores the value 0 in `zeros`: a joint whose limits exclude 0 is centred.
         zero = self._zeros.number(name, 0.0) or (0.0 if lower <= 0.0 <= upper else (lower + upper) / 2.0)
         self.free[name] = FreeJoint(
             lower=lower,
@@ -233,7 +233,7 @@ class JointStatePublisher:
     def _robot(self, options: RosParameters) -> XmlNode:
         name = f"{self._node.name}/robot_description"
         root = parse_xml(options.text("robot_description"), name=name)
-        robot = root.find("robot") or root  # like the original, whose tests nest it in <urdf>
+        robot = root.find("robot") or root  # the original's tests nest <robot> in <urdf>, too
         if robot.tag != "robot":
             raise DescriptionError(robot.at, f"a URDF starts with <robot>, not <{robot.tag}>")
         return robot

@@ -1,4 +1,4 @@
-"""Key presses for teleop nodes, from the node's terminal or else from this process's, for one node only."""
+"""Key presses for teleop nodes: from the node's terminal, else from this process's, which one node can read."""
 
 import asyncio
 import os
@@ -14,7 +14,7 @@ _ARROWS = {"\x1b[A": "up", "\x1b[B": "down", "\x1b[C": "right", "\x1b[D": "left"
 
 
 class Keyboard:
-    """Reads keys in cbreak mode, so that Ctrl-C still ends the launch, or the node of the terminal."""
+    """Reads keys in cbreak mode, so that Ctrl-C still ends the launch, or the terminal's node."""
 
     _is_in_use = False
 
@@ -53,7 +53,7 @@ class Keyboard:
                 yield
             return
         task = asyncio.current_task()
-        assert task is not None, "a node runs in a task"
+        assert task is not None, "nodes run in tasks"
 
         def receive(text: str) -> None:
             if _CTRL_C in text:

@@ -36,7 +36,7 @@ _ANONYMOUS = frozenset(
         ("dynamic_reconfigure", "reconfigure_gui"),
         ("gazebo_ros", "spawn_model"),
         ("gazebo_ros", "urdf_spawner"),
-        ("image_view", "image_view"),  # until kinetic
+        ("image_view", "image_view"),  # the name up to Kinetic
         ("map_server", "map_server"),
         ("rviz", "rviz"),
         ("tf", "static_transform_publisher"),

@@ -12,7 +12,7 @@ from .host import NodeHost
 
 
 class Nodelet:
-    """Runs the nodelet in its arguments; the launch reports nodelets without replacement and does not start them."""
+    """Runs the nodelet that its arguments name; the launch reports nodelets without a stand-in and skips them."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         self._node = node

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from trundle.ros.message_types import sensor_msgs
 
 _MAX_FLOAT, _MIN_FLOAT = sys.float_info.max, sys.float_info.min
-"""Defaults of the original, which uses std::numeric_limits::min, the smallest positive number, as lowest one."""
+"""Defaults of the original; its minimum is std::numeric_limits::min, the smallest positive number."""
 _POLL_S = 0.02
 _FLOATS = {7: "f4", 8: "f8"}
 """Datatype numbers of floats in sensor_msgs/PointField."""

@@ -53,7 +53,7 @@ def lacks_rospy(program: Path, env: Mapping[str, str]) -> bool:
         return False
     command = interpreter(program, env)
     if len(command) > 1:
-        return False  # translated, and run with this process's Python
+        return False  # a Python 2 script is translated, and this process's Python runs it
     python = shutil.which(next(iter(command), os.fsdecode(shebang[1])), path=env.get("PATH"))
     if python is None or not Path(python).name.startswith("python"):
         return False
@@ -82,10 +82,10 @@ def missing_rospy_advice(module: str) -> str:
 def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:
     """Return the interpreter command for a program; [] if its shebang suffices.
 
-    A script with a generic Python shebang, in a ROS package or with imports of ROS, runs with a Python with rospy: its
-    own, else Debian's. This process's Python runs it without an installed rospy, for modules and messages of a
-    workspace that is not built, without `python`, and if it imports trundle. A Python 2 program is translated and run
-    by this process's Python, unless PYTHONPATH has a ROS.
+    A script with a generic Python shebang that is in a ROS package or imports ROS runs with a Python that has rospy:
+    the shebang's, else Debian's. This process's Python runs the script if rospy is not installed, if modules or
+    messages are of a workspace that is not built, if there is no `python`, and if the script imports trundle. This
+    process's Python also translates and runs Python 2 programs, unless PYTHONPATH has a ROS.
     """
     beginning = _read_beginning(program)
     shebang = _GENERIC_SHEBANG.match(beginning)
@@ -113,7 +113,7 @@ def is_script(program: Path) -> bool:
 
 
 def script_fault(program: Path) -> str | None:
-    """Return why the system cannot run a script, and the remedy; None: it can."""
+    """Return the reason why the system cannot run a script, and the remedy; None if it can."""
     if not os.access(program, os.X_OK):
         return f"is not executable; it is run nevertheless, as after: chmod +x {shlex.quote(str(program))}"
     if _has_crlf(program):
@@ -173,7 +173,7 @@ def _module_files(name: str, folders: Iterable[str]) -> Iterator[str]:
 
 
 def _is_debian_python(python: Path) -> bool:
-    return python.parent.resolve() == Path(_DEBIAN_PYTHON).parent  # also the target of a virtual environment's link
+    return python.parent.resolve() == Path(_DEBIAN_PYTHON).parent  # the target of a virtual environment's link, too
 
 
 def _has_installed_rospy(python: Path) -> bool:

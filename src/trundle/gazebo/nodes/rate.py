@@ -35,8 +35,8 @@ class Rate:
 class RateDivider:
     """Rate divider of arbotix_python, for a lower rate inside a faster loop.
 
-    The next period starts when the last one was executed, not when it was due, so that the actual rate is too low: 10
-    Hz in a loop of 20 Hz executes every second or third pass.
+    The next period starts when the work was done, not when it was due, so that the actual rate is too low: at 10 Hz
+    in a loop of 20 Hz, every second or third pass does the work.
     """
 
     def __init__(self, now_ns: Callable[[], int], rate_hz: float) -> None:

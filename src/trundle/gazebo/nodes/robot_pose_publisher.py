@@ -32,7 +32,7 @@ class RobotPosePublisher:
             try:
                 transform = buffer.lookup_transform(world, base)
             except TransformError:
-                pass  # no localisation yet
+                pass  # nothing localizes the robot yet
             else:
                 (x, y, z), (qw, qx, qy, qz) = transform.translation, transform.rotation
                 pose = {"position": {"x": x, "y": y, "z": z}, "orientation": {"w": qw, "x": qx, "y": qy, "z": qz}}

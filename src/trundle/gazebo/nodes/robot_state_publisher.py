@@ -29,13 +29,13 @@ class RobotFrames:
     moving: dict[str, RobotJoint]
     fixed: dict[str, RobotJoint]
     mimics: dict[str, RobotJoint]
-    """Joints of `moving` that mimic another joint, without chains, as in the original."""
+    """Joints of `moving` that mimic a joint which does not mimic itself, as in the original."""
     prefix: str = ""
 
     @staticmethod
     def from_robot(robot: Robot, prefix: str) -> "RobotFrames":
-        """Classify joints; planar ones are fixed, as in KDL (one position is not enough), floating ones ignored."""
-        joints = sorted(robot.joints, key=lambda joint: joint.name)  # order of std::map, as in the original's messages
+        """Classify joints: planar ones need several positions and are fixed, as in KDL; floating ones are ignored."""
+        joints = sorted(robot.joints, key=lambda joint: joint.name)  # as std::map orders the original's messages
         moving = {j.name: j for j in joints if j.type not in ("fixed", "planar", "floating")}
         return RobotFrames(
             moving=moving,
@@ -152,7 +152,7 @@ class RobotStatePublisher:
         self._last_received_ns = now
         if stamp_ns + _OLD_NS < now:
             self._old.warn(f"Received JointState is {(now - stamp_ns) / 1e9:f} seconds old.")
-        # Publishers send different joints; the joint published longest ago determines the interval.
+        # Publishers may send different joints: the joint whose last message is oldest determines the interval.
         oldest_ns = min((self._last_published_ns.get(name, 0) for name in message.name), default=now)
         if not self._ignores_stamps and stamp_ns < min(oldest_ns, now) + self._interval_ns:
             return

@@ -121,7 +121,7 @@ class PanelWindow:
 RqtBag = PanelWindow("rqt_bag", "the timeline")
 RqtConsole = PanelWindow("rqt_console", "the log")
 RqtGraph = PanelWindow("rqt_graph", "nodes and topics")
-RqtPublisher = PanelWindow("rqt_publisher", "publishes messages typed in")
+RqtPublisher = PanelWindow("rqt_publisher", "publishes messages that a person types")
 RqtReconfigure = PanelWindow("rqt_reconfigure", "the options of all nodes")
 RqtRobotMonitor = PanelWindow("rqt_robot_monitor", "diagnostics")
 RqtServiceCaller = PanelWindow("rqt_service_caller", "calls services")

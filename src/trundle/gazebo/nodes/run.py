@@ -20,7 +20,7 @@ async def run_builtin_node(replacement: BuiltinReplacement, node: Node, argument
     killed = asyncio.Event()
     node.on_shutdown(lambda _: killed.set())
     try:
-        await node.wait_registered()  # sets its `_name:=value` parameters
+        await node.wait_registered()  # sets the parameters `_name:=value`
         await follow_time(node)
         distro = str(await node.params.get("/rosdistro", "")).strip()
         node.profile = DISTROS.get(distro, NOETIC)

@@ -29,7 +29,7 @@ class Rviz:
         if config is not None and not os.path.isfile(config):
             node.log.warn(f"no rviz config {config!r}; the default view is shown")
             config = None
-        # Tools of the default layout; the page publishes clicks.
+        # Topics of the tools in the default layout; the page publishes the clicks.
         node.advertise("/initialpose", "geometry_msgs/PoseWithCovarianceStamped", queue_size=1)
         node.advertise("/move_base_simple/goal", "geometry_msgs/PoseStamped", queue_size=1)
         node.advertise("/clicked_point", "geometry_msgs/PointStamped", queue_size=1)
@@ -38,7 +38,7 @@ class Rviz:
         node.advertise_service("~save_config", "rviz/SendFilePath", _refuse)
         node.advertise_service("~reload_shaders", "std_srvs/Empty", _empty_response)
         if self._display is None:
-            # Registered, so that the graph is the same with and without a page.
+            # Registered here, so that the graph is the same with and without a page.
             node.subscribe("/tf", "tf2_msgs/TFMessage", _ignore, queue_size=1)
             node.subscribe("/tf_static", "tf2_msgs/TFMessage", _ignore, queue_size=1)
             await node.closed.wait()

@@ -44,7 +44,7 @@ class _Sound:
 
 
 class SoundPlay:
-    """Plays `robotsound` and the action `sound_play` (sound_play/SoundRequest), the newest request at a time.
+    """Plays the newest request of `robotsound` or the action `sound_play` (sound_play/SoundRequest).
 
     espeak or macOS' say speaks texts; paplay, pw-play, afplay, ffplay or aplay plays files; without these, the text is
     logged. The original's five sounds are spoken.
@@ -91,7 +91,7 @@ class SoundPlay:
             pass
 
     def _sound(self, request: Any) -> _Sound | None:
-        """Find the program for a request; without one, log that and return None."""
+        """Find the program for a request; if none is installed, log this and return None."""
         volume = min(max(float(request.volume), 0.0), 1.0) if request.volume > 0.0 else 1.0
         is_file = request.sound == _FILE
         text = str(request.arg)[:_MAX_TEXT] if request.sound == _SAY else _SOUNDS.get(request.sound, "")

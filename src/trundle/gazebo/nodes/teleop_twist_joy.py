@@ -43,7 +43,7 @@ class TeleopTwistJoy:
             self._send(joy, turbo=True)
         elif _pressed(joy, self._enable):
             self._send(joy, turbo=False)
-        elif not self._sent_stop:  # once, so that other nodes may drive
+        elif not self._sent_stop:  # stop only once, so that other nodes may drive
             self._commands.publish({})
             self._sent_stop = True
 

@@ -29,7 +29,7 @@ _MAX_REQUESTS = 1000
 
 @dataclass(slots=True)
 class TransformPair:
-    """One transform watched by a client."""
+    """A transform that a client watches."""
 
     source: str
     target: str
@@ -39,7 +39,7 @@ class TransformPair:
 
 @dataclass(slots=True, kw_only=True)
 class TransformWatch:
-    """Transforms watched by a client; a transform is due when it has changed enough."""
+    """Transforms that a client watches; a transform is due when it has changed enough."""
 
     pairs: list[TransformPair]
     angle: float

@@ -18,7 +18,9 @@ _MOVE_AXIS, _ROTATE_AXIS = 3, 5
 """Modes of InteractiveMarkerControl."""
 _HALF = math.sqrt(0.5)
 _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 0.0, 1.0), "z": (0.0, 1.0, 0.0)}
-"""Axis → vector part of the quaternion that rotates a control's x axis to it; w is equal (visualization_msgs)."""
+"""Axis → vector part of the quaternion that rotates a control's x axis to this axis; w has the same value
+(visualization_msgs).
+"""
 _KEEP_ALIVE_HZ = 2.0
 
 

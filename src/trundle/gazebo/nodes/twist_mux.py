@@ -68,7 +68,9 @@ def lock_priority(locks: Sequence[TopicHandle], now_ns: int) -> int:
 
 
 def find_active_topic(sources: Sequence[TopicHandle], locks: Sequence[TopicHandle], now_ns: int) -> TopicHandle | None:
-    """Return the active input: unexpired, with the highest priority, first among equals; priority 0 is never active."""
+    """Return the active input: of those not expired the one of the highest priority, of equal ones the first; never one
+    of priority 0.
+    """
     min_priority = max(lock_priority(locks, now_ns), 1)
     candidates = [source for source in sources if not source.is_expired(now_ns) and source.priority >= min_priority]
     return max(candidates, key=lambda source: source.priority, default=None)

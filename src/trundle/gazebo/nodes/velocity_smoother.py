@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 
 _KIND = "geometry_msgs/Twist"
 _PERIODS = 5
-"""Messages whose median distance is that of the input."""
+"""Number of messages whose median interval counts as the input's period."""
 _FIRST_PERIOD_S, _LONGEST_SILENCE_S = 0.1, 0.5
 _ODOMETRY, _COMMANDS = 1, 2
-"""robot_feedback: where the robot's velocity comes from; 0: nowhere."""
+"""Values of robot_feedback, the source of the robot's velocity; 0: none."""
 _Velocity = tuple[float, float]
 """x [m/s], yaw [rad/s]."""
 
@@ -85,7 +85,7 @@ class VelocitySmoother:
         self._robot = message.linear.x, message.angular.z
 
     def _step(self) -> None:
-        """Publish the next command, while there is input or the robot is not at its last one yet."""
+        """Publish the next command, while there is input or the robot has not reached the last input yet."""
         self._watch_input()
         if self._has_feedback and self._is_active and self._differs_from_robot():
             self._last = self._robot
@@ -97,7 +97,7 @@ class VelocitySmoother:
         self._output.publish({"linear": {"x": x}, "angular": {"z": turn}})
 
     def _watch_input(self) -> None:
-        """Stop the robot when its input has become silent."""
+        """Stop the robot when no input arrives any more."""
         is_known = len(self._periods_s) > _PERIODS // 2
         period_s = statistics.median(self._periods_s) if is_known else _FIRST_PERIOD_S
         silent_s = (self._node.clock.now_ns() - self._received_ns) / NS_PER_S

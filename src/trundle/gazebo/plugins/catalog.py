@@ -185,7 +185,7 @@ def find_world_plugin(tag: PluginTag, environment: Mapping[str, str]) -> tuple[t
 
 
 def is_sensor_plugin(tag: PluginTag) -> bool:
-    """True if `find_sensor_plugin` finds it; loads nothing."""
+    """True if `find_sensor_plugin` would find the plugin; loads nothing."""
     return _base_name(tag) in SENSOR_PLUGINS
 
 
@@ -226,13 +226,13 @@ def _find(tag: PluginTag, environment: Mapping[str, str], kind: type[_Kind]) -> 
 
 
 def _entry_points(filename: str) -> "EntryPoints":
-    from importlib.metadata import entry_points  # slow to load, and most robots have only Trundle's own
+    from importlib.metadata import entry_points  # slow to load, and most robots have only plugins of Trundle
 
     return entry_points(group=GROUP, name=filename)
 
 
 def _python_file(tag: PluginTag, environment: Mapping[str, str]) -> Path:
-    """The user's Python file for a plugin that is neither Trundle's nor installed."""
+    """Return the user's Python file of a plugin that is neither Trundle's nor installed."""
     filename = _base_name(tag)
     folders = _folders(tag, environment)
     for folder in folders:
@@ -294,7 +294,7 @@ def _load_file(path: Path, kind: type[_Kind]) -> type[_Kind]:
     assert spec is not None, path
     assert spec.loader is not None, path
     module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module  # dataclasses and pickle look it up
+    sys.modules[name] = module  # dataclasses and pickle look the module up
     try:
         spec.loader.exec_module(module)
     except Exception as error:
@@ -319,7 +319,7 @@ def describe(error: Exception) -> str:
 
 
 def _error_source(path: Path, error: Exception) -> Source:
-    """Deepest line of the user's file in the traceback."""
+    """Return the deepest line of the user's file in the traceback."""
     if isinstance(error, SyntaxError):
         return Source(str(path), error.lineno)
     line: int | None = None

@@ -1,4 +1,4 @@
-"""Documentation of the built-in plugins, from their docstrings: what each does, and its parameters."""
+"""Documentation of the built-in plugins, from their docstrings: the first sentence, and the parameters."""
 
 import ast
 import re
@@ -21,7 +21,7 @@ class PluginParameter(Struct, frozen=True):
 
     name: str
     default: str
-    """As documented; empty: no default."""
+    """Default as documented; empty: none."""
 
 
 class PluginDocumentation(Struct, frozen=True):
@@ -49,7 +49,7 @@ def plugin_documentation(filename: str) -> PluginDocumentation | None:
 
 
 def _docstring(module: str, name: str) -> str | None:
-    """Return the docstring of a class or function of a module, else the module's."""
+    """Return the docstring of a class or function of a module; without one, the module's."""
     spec = find_spec(module)
     if spec is None or spec.origin is None:
         return None

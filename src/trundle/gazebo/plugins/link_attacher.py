@@ -20,7 +20,7 @@ class LinkAttacher(WorldPlugin):
     links in their current poses.
     """
 
-    period_ns = 1 << 62  # it acts on requests only
+    period_ns = 1 << 62  # the plugin acts on requests only
 
     def __init__(self, sim: Simulation, node: Node, tag: PluginTag) -> None:
         self._sim, self._node, self._at = sim, node, tag.at

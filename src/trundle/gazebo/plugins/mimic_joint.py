@@ -13,7 +13,7 @@ from trundle.sim.simulation import ModelHandle, Simulation
 from .plugin import Plugin
 
 _LAG_STEPS = 5
-"""Steps to correct an error in; correcting it in one step would ring."""
+"""Number of steps in which an error is corrected; a correction in one step would oscillate."""
 
 
 class MimicJoint(Plugin):
@@ -48,7 +48,7 @@ class MimicJoint(Plugin):
         return cls(sim, model, tag)
 
     def is_active(self) -> bool:
-        """Return False where the engine couples the joints."""
+        """Return False if the engine couples the joints."""
         return not self._is_coupled
 
     def before_step(self, sim: Simulation) -> None:

@@ -34,7 +34,7 @@ _Method = TypeVar("_Method", bound=Callable[..., None])
 
 
 def _does_nothing(method: _Method) -> _Method:
-    """Mark a method that the simulation calls only where a plugin overrides it."""
+    """Mark a method that the simulation calls only if a plugin overrides it."""
     method.__dict__["does_nothing"] = True
     return method
 
@@ -54,7 +54,7 @@ class Hooks:
         """Read the state and publish; called when due, after the physics step."""
 
     def is_active(self) -> bool:
-        """True if the two hooks have work to do; else they are not called and cost nothing."""
+        """True if the two hooks have work to do; otherwise they are not called, and cost nothing."""
         return True
 
     def reset(self) -> None:

@@ -58,7 +58,7 @@ class RealSense(Plugin):
 
 
 def find_attach(tag: PluginTag, sensor: str) -> "Callable[[CameraSensor, TagParameters, PluginNames], None] | None":
-    """Return `attach` if the sensor is one of the RealSense's, else None."""
+    """Return `attach` for a sensor of the RealSense, else None."""
     names = {f"{tag.node.string('prefix')}{suffix}" for suffix in _STREAMS}
     return attach if sensor in names else None
 

@@ -10,9 +10,9 @@ class JointReading:
 
     name: str
     position: float = 0.0
-    """[rad], [m] for linear joints."""
+    """Position [rad], [m] for linear joints."""
     velocity: float = 0.0
-    """[rad/s], [m/s] for linear joints."""
+    """Velocity [rad/s], [m/s] for linear joints."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -69,8 +69,8 @@ class DiffController:
     def _command(self, twist: "geometry_msgs.Twist") -> None:
         """Apply new velocities from now on.
 
-        The original applies them to the whole interval since its last update, up to 0.15 s before the command: its time
-        within that interval would change the position by up to 7.5 cm (docs/decisions/0006).
+        The original applies them to the whole interval since its last update, up to 0.15 s before the command: the
+        position would then depend on the command's time within that interval, by up to 7.5 cm (docs/decisions/0006).
         """
         speed, turn_rate = float(twist.linear.x), float(twist.angular.z)
         if (speed, turn_rate) != (self._base.speed, self._base.turn_rate):

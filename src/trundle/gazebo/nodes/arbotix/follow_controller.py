@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from trundle.ros.message_types import control_msgs, trajectory_msgs
 
 _ARRIVAL_MARGIN_NS = 10_000_000
-"""A point counts as reached this long before its time."""
+"""Time before a point's time at which the point counts as reached [s]."""
 _TOLERANCE_RAD = 0.001
 
 
@@ -40,7 +40,7 @@ class FollowController:
         if missing := sorted(set(servos) - set(self._servos)):
             raise ParamError(f"no servo {missing[0]!r}; servos here: {', '.join(joints) or 'none'}")
         action = settings.text("action_name", "follow_joint_trajectory")
-        # Not below the controller's name: configurations have `action_name: arm_controller/follow_joint_trajectory`.
+        # Not below the controller's name, which `action_name` contains already: arm_controller/follow_joint_trajectory.
         self._server = ActionServer(node, action, "control_msgs/FollowJointTrajectory", self._on_goal)
         self._topic_task: asyncio.Task[ActionResult] | None = None
         for servo in self._servos.values():
@@ -97,7 +97,7 @@ class FollowController:
         return ActionResult(text="Trajectory execution complete")
 
     def _step(self, last: list[float], target: list[float], *, cycles: float) -> None:
-        """Interpolate one of the remaining cycles until the point."""
+        """Move by one of the remaining cycles until the point."""
         for index, joint in enumerate(self._joints):
             error = target[index] - last[index]
             if abs(error) > _TOLERANCE_RAD:

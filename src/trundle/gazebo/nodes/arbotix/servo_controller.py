@@ -160,7 +160,7 @@ class ServoController:
                 servo.interpolate(self._write_rate_hz)
 
     def status(self) -> None:
-        """None: each servo has its own status."""
+        """Return None: each servo has its own status."""
 
     def _relax_all(self, request: "arbotix_msgs.RelaxRequest") -> dict[str, object]:
         for servo in self._servos:

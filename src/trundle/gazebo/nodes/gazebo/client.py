@@ -6,7 +6,7 @@ from ..host import NodeHost
 
 
 class GazeboClient:
-    """Shows the simulated world on the page; without a page, idles (gzclient would fail without a display)."""
+    """Shows the simulated world on the page; without a page it idles, where gzclient would fail without a display."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments

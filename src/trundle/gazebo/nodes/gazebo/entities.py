@@ -1,4 +1,4 @@
-"""Lookup of models, links and joints by /gazebo's names: `model`, `model::link`, or `link` for the first match."""
+"""Lookup of models, links and joints by /gazebo's names: `model`, `model::link`, or `link`: its first match."""
 
 from trundle.base.diagnostics import UsageError
 from trundle.robots.model import Light, World

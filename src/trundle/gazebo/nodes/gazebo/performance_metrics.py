@@ -11,7 +11,7 @@ from trundle.sim.sensors import CameraSensor
 from ..host import Simulator
 
 _PERIOD_S = 1.0
-"""Publishing period [s]; no source gives Gazebo's, which gazebo_ros forwards."""
+"""Publishing period [s], an own choice; gazebo_ros forwards Gazebo's messages, whose period no source states."""
 _NO_FPS = -1.0
 """`fps` of sensors other than cameras, as in GazeboRosApiPlugin::onPerformanceMetrics."""
 
@@ -52,7 +52,7 @@ class MetricsTopic:
         now_ns = simulator.simulation.time_ns
         readings = {id(sensor): sensor.reading_count for sensor in simulator.sensors}
         self._last = sample = _Sample(time.monotonic(), now_ns / 1e9, readings)
-        if last is None or sample.sim_s < last.sim_s:  # first call, or time was reset
+        if last is None or sample.sim_s < last.sim_s:  # at the first call, and after a reset of time
             return
         wall_s, sim_s = sample.wall_s - last.wall_s, sample.sim_s - last.sim_s
         sensors: list[dict[str, Any]] = []

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from trundle.sim.simulation import Simulation
 
 _NO_EQUIVALENT = ("erp", "cfm", "stop_erp", "stop_cfm", "fudge_factor")
-"""Settings of ODE joints without equivalents in MuJoCo."""
+"""Settings of ODE joints that have no equivalent in MuJoCo."""
 _UPDATED = "physics engine updated"
 MIN_STEP_S, MAX_STEP_S = 1e-6, 1.0
 """Limits of a world's <max_step_size>."""

@@ -69,7 +69,7 @@ class GazeboServer:
         node.deliver = simulator.post
         topics, metrics = StateTopics(node, simulator), MetricsTopic(node, simulator)
         self._advertise(simulator)
-        await node.wait_registered()  # so that all services appear together
+        await node.wait_registered()  # all services exist before time begins
         simulator.begin()
         while not node.closed.is_set():
             if simulator.paused and not simulator.is_lockstep and topics.has_subscribers():
@@ -78,7 +78,7 @@ class GazeboServer:
                 simulator.post(metrics.publish)
             if simulator.is_lockstep:
                 await node.clock.sleep(topics.period_s)
-            else:  # wall time, since a paused world is also published
+            else:  # in wall time, since a paused world is also published
                 await asyncio.sleep(topics.period_s)
 
     def _advertise(self, simulator: Simulator) -> None:

@@ -15,7 +15,7 @@ _SOURCES = ("-file", "-param", "-database", "-stdin")
 _TEXTS = frozenset({*_SOURCES[:3], "-model", "-wait", "-reference_frame", "-gazebo_namespace", "-robot_namespace"})
 _FLAGS = frozenset({"-stdin", "-unpause", "-package_to_model", "-b"})
 _ALIASES = {"-namespace": "-robot_namespace", "-bond": "-b"}
-"""Aliases; -namespace up to Kinetic."""
+"""Alias → option; -namespace exists up to Kinetic."""
 _TRIMESH = "-trimesh_"
 
 

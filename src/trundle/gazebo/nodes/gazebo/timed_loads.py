@@ -16,7 +16,7 @@ class _ScheduledLoad(Generic[Target, Load]):
     load: Load
     start_ns: int
     end_ns: int | None
-    """None: unlimited."""
+    """Time of the end [ns]; None: unlimited."""
 
 
 class TimedLoads(Generic[Target, Load]):
@@ -27,7 +27,7 @@ class TimedLoads(Generic[Target, Load]):
 
         Args:
             simulation: clock of the loads.
-            apply: replaces the loads on a target, oldest first.
+            apply: called with a target and its active loads, oldest first.
         """
         self._simulation = simulation
         self._apply = apply

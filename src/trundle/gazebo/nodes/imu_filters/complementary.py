@@ -1,4 +1,4 @@
-"""imu_complementary_filter/complementary_filter_node: orientation by small corrections of the integrated one.
+"""imu_complementary_filter/complementary_filter_node: orientation by integration and small corrections.
 
 R. Valenti, I. Dryanovski and J. Xiao, "Keeping a Good Attitude: A Quaternion-Based Orientation Filter for IMUs and
 MARGs", 2015.
@@ -23,11 +23,11 @@ from .orientation import orientation_from_field, rotation_to_z
 
 _GRAVITY = 9.81
 _MAX_RESTING_TURN, _MAX_RESTING_CHANGE = 0.2, 0.01
-"""Angular velocity beyond the bias, and its change between two measurements, of an imu at rest [rad/s]."""
+"""Limits for an imu at rest [rad/s]: of the angular velocity beyond the bias, and of its change per message."""
 _MAX_RESTING_ACCELERATION = 0.1
-"""Difference from gravity of an imu at rest [m/s²]."""
+"""Limit for an imu at rest [m/s²]: difference of the acceleration's length from gravity."""
 _TRUSTED_ERROR, _IGNORED_ERROR = 0.1, 0.2
-"""Relative differences from gravity up to which an acceleration counts fully, and from which on not at all."""
+"""Relative differences from gravity: up to the first an acceleration counts fully, from the second on not at all."""
 
 
 class ComplementaryFilter:
@@ -40,7 +40,7 @@ class ComplementaryFilter:
 
         Args:
             gain_acc: ratio of gravity's correction in each update, 0 … 1.
-            gain_mag: the field's.
+            gain_mag: ratio of the magnetic field's correction in each update, 0 … 1.
             bias_alpha: ratio of the angular velocity at rest that is added to its bias in each update, 0 … 1.
             does_estimate_bias: True to estimate the bias.
             is_adaptive: True to reduce gain_acc while the imu accelerates.
@@ -104,7 +104,7 @@ class ComplementaryFilter:
 
 
 def _trust(acceleration: Vector3) -> float:
-    """Return 1 near gravity, and less to 0 farther from it."""
+    """Return 1 for an acceleration near gravity, which falls to 0 with the difference."""
     error = abs(math.hypot(*acceleration) - _GRAVITY) / _GRAVITY
     return min(max((_IGNORED_ERROR - error) / (_IGNORED_ERROR - _TRUSTED_ERROR), 0.0), 1.0)
 

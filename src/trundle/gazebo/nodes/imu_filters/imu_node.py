@@ -34,7 +34,7 @@ class ImuNode:
         self._imus: deque[Any] = deque(maxlen=_QUEUE)
         self._fields: deque[Any] = deque(maxlen=_QUEUE)
         self._last_ns: int | None = None
-        """Stamp of the last message; None: none since the start or a jump of time."""
+        """Stamp of the last message; None at the start and after a jump of time."""
         self._now_ns = 0
 
     async def run(self) -> int:
@@ -87,7 +87,7 @@ class ImuNode:
         self._pair()
 
     def _pair(self) -> None:
-        """Use each field with the nearest imu message, once one at or after it has come."""
+        """Use each field with the nearest imu message, once an imu message at or after its stamp has arrived."""
         while self._fields and self._imus:
             stamp_ns = to_nsec(self._fields[0].header.stamp)
             if to_nsec(self._imus[-1].header.stamp) < stamp_ns:
@@ -138,7 +138,7 @@ class ImuNode:
         raise NotImplementedError
 
     def _corrected(self, turn: Vector3, acceleration: Vector3) -> tuple[Vector3, Vector3]:
-        """Return angular velocity and acceleration as they are published."""
+        """Return angular velocity and acceleration in the form to publish."""
         return turn, acceleration
 
     def _publish(self, message: Any, stamp_ns: int) -> None:

@@ -36,8 +36,8 @@ class MadgwickFilter:
 
         Args:
             frame: world frame: 'enu', 'ned' or 'nwu'.
-            gain: how fast gravity and the field correct the orientation [rad/s].
-            drift_gain: how fast they correct the drift of the angular velocity, zeta [rad/s].
+            gain: rate at which gravity and the field correct the orientation [rad/s].
+            drift_gain: rate at which they correct the drift of the angular velocity, zeta [rad/s].
         """
         self.frame = frame
         self.gain = gain
@@ -46,7 +46,7 @@ class MadgwickFilter:
         self._drift: Vector3 = (0.0, 0.0, 0.0)
 
     def update(self, turn: Vector3, acceleration: Vector3, field: Vector3 | None, dt: float) -> None:
-        """Predict over `dt` [s] by the angular velocity, and correct by gravity and, where given, the field."""
+        """Predict over `dt` [s] by the angular velocity, and correct by gravity and the field, if there is one."""
         q, up = self.orientation, normalized(acceleration)
         step: Quaternion = (0.0, 0.0, 0.0, 0.0)
         if up is not None:
@@ -70,9 +70,9 @@ class MadgwickFilter:
 
 
 def _descent(q: Quaternion, pairs: list[tuple[Vector3, Vector3]]) -> Quaternion:
-    """Return the unit direction in which the distances of the pairs grow fastest, at right angles to `q`.
+    """Return the unit direction, at right angles to `q`, in which the error of the pairs grows fastest.
 
-    A pair is a direction in the world and the same as measured. With d, s and f = q̄ d q − s as pure quaternions, the
+    A pair is a direction in the world, and its measurement. With d, s and f = q̄ d q − s as pure quaternions, the
     gradient of |f|² is −4 d q f.
     """
     total = [0.0] * 4

@@ -20,7 +20,7 @@ _MIN_HORIZONTAL = 1e-7
 _MIN_GRAVITY = 0.1
 """[m/s²]"""
 UP = {"enu": (0.0, 0.0, 1.0), "nwu": (0.0, 0.0, 1.0), "ned": (0.0, 0.0, -1.0)}
-"""World frame → direction of up: what an accelerometer at rest measures."""
+"""World frame → upward direction, which an accelerometer at rest measures."""
 
 
 def orientation_from_gravity(acceleration: Vector3, frame: str) -> Quaternion | None:

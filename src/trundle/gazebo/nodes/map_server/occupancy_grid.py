@@ -115,7 +115,7 @@ def _cells(pixels: NDArray[np.float64], *, negate: bool, occupied: float, free: 
     # In trinary mode, the original averages alpha with the colors.
     channels = pixels[:, :, :-1] if has_opacity and mode != "trinary" else pixels
     brightness = 255.0 - channels.mean(axis=2) if negate else channels.mean(axis=2)
-    if mode == "raw":  # byte by byte: 255 is −1
+    if mode == "raw":  # byte by byte: −1 becomes 255
         return np.flipud(brightness).astype(np.uint8).view(np.int8)
     occupancy = (255.0 - brightness) / 255.0
     intermediate = np.full_like(occupancy, _UNKNOWN)

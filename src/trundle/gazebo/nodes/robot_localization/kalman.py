@@ -63,7 +63,7 @@ class KalmanFilter:
         self._wrap()
 
     def start(self, measurement: Measurement) -> None:
-        """Set the state's measured elements from the first measurement."""
+        """Set the measured elements of the state from the first measurement."""
         indices = list(measurement.indices)
         self.state[indices] = measurement.values
         self.covariance[np.ix_(indices, indices)] = measurement.covariance

@@ -64,7 +64,7 @@ class Source:
 
     @property
     def kind(self) -> str:
-        """Prefix of its name: odom, pose, twist or imu."""
+        """Prefix of the source's name: odom, pose, twist or imu."""
         return self.name.rstrip("0123456789")
 
     def reset(self) -> None:
@@ -122,7 +122,7 @@ class MessageReader:
     find: FrameLookup
 
     def read(self, source: Source, message: Any, orientation: Quaternion) -> list[Measurement]:
-        """Return the measurements in a message; `orientation`, the filter's, rotates gravity if an imu has none."""
+        """Return a message's measurements; for an imu without orientation, `orientation` turns gravity."""
         match source.kind:
             case "odom":
                 child = message.child_frame_id or self.base
@@ -182,7 +182,7 @@ class MessageReader:
     def _body_twist(
         self, source: Source, stamp_ns: int, frame: str, values: Array, covariance: Array
     ) -> list[Measurement]:
-        """Convert a twist of a frame on the robot to the base's."""
+        """Convert the twist of a frame on the robot to that of the base."""
         values, is_finite = _finite(values)
         mask_in_frame = source.mask[6:12] * is_finite
         base_from_frame = self.find(self.base, frame, stamp_ns) if mask_in_frame.any() else None

@@ -1,4 +1,4 @@
-"""Unscented Kalman filter of a free body's motion: its uncertainty is that of a few moved points.
+"""Unscented Kalman filter of a free body's motion: a few points, moved by the motion, give the uncertainty.
 
 E. Wan and R. van der Merwe, "The unscented Kalman filter for nonlinear estimation", 2000. Measurements are elements of
 the state, so that their correction is that of the extended filter.
@@ -30,8 +30,8 @@ class UnscentedKalmanFilter(KalmanFilter):
             process_noise: (15, 15) growth of the covariance per second of prediction.
             covariance: (15, 15) covariance of the state.
             state: (15,) initial state; see `kalman`.
-            alpha: distance of the points from the estimate, by the standard deviation and √15.
-            kappa: added to 15 in that distance.
+            alpha: distance of the points from the estimate, divided by the standard deviation and √15.
+            kappa: number added to 15 in that distance.
             beta: knowledge of the distribution; 2 for a normal one.
         """
         super().__init__(process_noise=process_noise, covariance=covariance, state=state)
@@ -47,7 +47,7 @@ class UnscentedKalmanFilter(KalmanFilter):
         steps = self._reach * _root(self.covariance)
         points = self.state[:, None] + np.concatenate((np.zeros((SIZE, 1)), steps, -steps), axis=1)
         moved = move(points, dt)
-        # about the moved estimate, so that angles may be averaged
+        # differences from the moved estimate, so that angles may be averaged
         offsets = moved - moved[:, :1]
         offsets[ANGLES] = wrap_angles(offsets[ANGLES])
         mean = offsets @ self._mean_weights

@@ -90,7 +90,7 @@ class RobotPoseEkf:
         sensor.received_ns = self._node.clock.now_ns()
 
     def _read(self, sensor: Sensor, message: Any, stamp_ns: int) -> tuple[Pose, _Array]:
-        """Return the robot's pose as measured, and the covariance of the measured elements."""
+        """Return the measured pose of the robot, and the covariance of the measured elements."""
         if sensor.name == "imu":
             covariance = read_covariance(message.orientation_covariance, 3, range(3), _IMU_VARIANCE)
             orientation = read_pose((0.0, 0.0, 0.0), message.orientation)
@@ -138,7 +138,7 @@ class RobotPoseEkf:
         return sensor.received_ns is not None and now_ns - sensor.received_ns <= self._timeout_ns
 
     def _start(self, active: list[Sensor], stamp_ns: int) -> None:
-        """Begin at the first measurement: of the odometry or vo, with GPS the position by that."""
+        """Begin at the first measurement of the odometry or vo; with GPS, the position is that of the GPS."""
         poses = {sensor.name: sensor.at(stamp_ns) for sensor in active}
         orientation = next((pose for name in ("imu", "odom", "vo") if (pose := poses.get(name)) is not None), None)
         start = next((pose for name in ("odom", "vo") if (pose := poses.get(name)) is not None), None)
@@ -150,7 +150,7 @@ class RobotPoseEkf:
             self._node.log.info("the filter begins")
 
     def _update(self, estimate: PoseFilter, active: list[Sensor], stamp_ns: int) -> None:
-        """Add each sensor's motion since the last step; the imu's tilt and the GPS's position count as they are."""
+        """Add each sensor's motion since the last step; the imu's roll and pitch and GPS positions are absolute."""
         dt = (stamp_ns - self._stamp_ns) / NS_PER_S
         old = estimate.pose
         turned: dict[str, float] = {}
@@ -167,7 +167,7 @@ class RobotPoseEkf:
                 values[3:5] = pose.rpy[:2]
             turned[sensor.name] = values[5]
             estimate.correct(sensor.indices, [values[i] for i in sensor.indices], sensor.covariance * dt**2)
-        if not turned:  # no sensor knows the motion yet: the robot is taken to stand still
+        if not turned:  # no sensor has measured a motion yet: the robot is assumed to stand still
             estimate.rest()
         self._stamp_ns = stamp_ns
         if self._diagnoses and {"odom", "imu"} <= turned.keys():

@@ -10,7 +10,7 @@ from trundle.spatial import Pose, quaternion_from_rpy
 
 _Array = NDArray[np.float64]
 _SYSTEM_NOISE = 1000.0**2
-"""Variance that a step adds: the pose is known from the sensors' motions alone, as in the original."""
+"""Variance that a step adds; so large that only the sensors' motions determine the pose, as in the original."""
 _START_VARIANCE = 0.001**2
 
 
@@ -28,7 +28,7 @@ class PoseFilter:
         return Pose((x, y, z), quaternion_from_rpy(roll, pitch, yaw))
 
     def predict(self) -> None:
-        """Forget where the robot may have moved."""
+        """Predict: the robot may have moved anywhere."""
         self.covariance = self.covariance + _SYSTEM_NOISE * np.eye(6)
 
     def rest(self) -> None:
@@ -36,7 +36,7 @@ class PoseFilter:
         self.covariance = self.covariance - _SYSTEM_NOISE * np.eye(6)
 
     def correct(self, indices: Sequence[int], values: Sequence[float], covariance: _Array) -> None:
-        """Use measured elements and their covariance; angles are taken near the estimate."""
+        """Correct by measured elements and their covariance; angles are wrapped to the estimate's."""
         rows = list(indices)
         difference = np.array(values) - self.state[rows]
         for row, index in enumerate(rows):

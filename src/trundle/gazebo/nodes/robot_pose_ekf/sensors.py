@@ -1,4 +1,4 @@
-"""Sensors of robot_pose_ekf, and what their messages measure."""
+"""Sensors of robot_pose_ekf, and the measurements in their messages."""
 
 import math
 from collections import deque
@@ -31,10 +31,10 @@ class Sensor:
     received_ns: int | None = None
     count: int = 0
     last: Pose | None = None
-    """Pose at the last step; None: it is not used yet."""
+    """Pose at the last step; None: the sensor was not used yet."""
 
     def at(self, stamp_ns: int) -> Pose | None:
-        """Interpolate between the messages about a time; None outside them."""
+        """Interpolate between the messages before and after a time; None outside the messages."""
         before: tuple[int, Pose] | None = None
         for stamp, pose in self.poses:
             if stamp == stamp_ns:
@@ -76,7 +76,7 @@ def read_pose(position: tuple[float, float, float], orientation: Any) -> Pose:
 
 
 def read_covariance(values: Sequence[float], size: int, indices: Sequence[int], default: float | None) -> _Array:
-    """Return the covariance of some elements; `default` is the variance where none is stated.
+    """Return the covariance of some elements; if the first variance is 0, all are `default`.
 
     Raises:
         ValueError: a variance is 0 without a default, or not finite.

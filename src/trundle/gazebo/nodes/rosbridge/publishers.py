@@ -11,7 +11,7 @@ from .json_values import JsonDecoder
 from .topic_types import resolve_type
 
 _HOLD_S = 1.0
-"""Time after which a new publisher no longer holds messages for its first subscriber."""
+"""Time for which a new publisher holds messages for its first subscriber [s]."""
 _MAX_PENDING = 100
 _MAX_TOPICS = 1000
 
@@ -78,7 +78,7 @@ class Publishers:
         publisher = shared.publisher
         fields = self._decoder.fields(message, publisher.type, self._node.clock.now_ns())
         if shared.is_new and not publisher.has_subscribers and shared.latching_client is None:
-            self._node.messages.new(publisher.type, fields)  # raises if invalid
+            self._node.messages.new(publisher.type, fields)  # raises if the message is invalid
             if len(shared.pending) < _MAX_PENDING:
                 shared.pending.append(fields)
         else:

@@ -73,7 +73,7 @@ class ClientService:
             RosbridgeError: the response does not match the type.
         """
         fields = JsonDecoder(self._node.messages).fields(values, self._kind.response, self._node.clock.now_ns())
-        self._node.messages.new(self._kind.response, fields)  # raises if invalid
+        self._node.messages.new(self._kind.response, fields)  # raises if the response is invalid
         pending = self._pending.get(str(key))
         if pending is None or pending.done():
             raise RosbridgeError(f"Service {self._name} has no request {str(key)[:100]!r}")

@@ -19,8 +19,8 @@ from .topic_types import resolve_type
 _ANY = "*"
 _MAX_QUEUE = 10_000
 _COMPRESSIONS = ("cbor-raw", "cbor", "png")
-"""In order of precedence: all subscriptions of a client use the first that one of them requests, as in
-rosbridge_library."""
+"""Encodings by precedence: all of a client's subscriptions to a topic use the first one that any of them requests, as
+in rosbridge_library."""
 
 Send = Callable[[str | bytes], bool]
 
@@ -46,7 +46,7 @@ class Subscription:
         wait_idle: Callable[[], Awaitable[object]],
         kind: str,
     ) -> None:
-        """Call `subscribe` next.
+        """Prepare; `subscribe` subscribes.
 
         Args:
             node: node that subscribes.

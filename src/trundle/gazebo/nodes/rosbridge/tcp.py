@@ -101,7 +101,7 @@ class RosbridgeTcp:
             self._tasks.discard(task)
 
     async def _receive_all(self, reader: asyncio.StreamReader, session: Session) -> None:
-        """Handle objects until the client leaves or sends other data, such as a browser's request."""
+        """Handle objects until the client leaves or sends anything else, such as a browser's request."""
         splitter, has_token = ObjectSplitter(), self._token is None
         while data := await reader.read(_CHUNK):
             try:

@@ -62,7 +62,7 @@ class Mux:
         self._inputs[name].subscribe()
 
     def _begin(self, topic: str) -> None:
-        """Select ~initial_topic or else the first input; with an unknown topic, none."""
+        """Select ~initial_topic, else the first input; if ~initial_topic is unknown, select none."""
         try:
             self._choose(topic or next(iter(self._inputs)))
         except ServiceError as error:

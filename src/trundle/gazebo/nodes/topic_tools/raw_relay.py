@@ -10,7 +10,7 @@ _POLL_S = 0.1
 
 
 class RawPublisher:
-    """Publisher with the type and latching of the first message, which reaches subscribers only if latched."""
+    """Publisher with the type and latching of the first message, which reaches subscribers only if it is latched."""
 
     def __init__(self, node: Node, topic: str, *, latch: bool | None = None) -> None:
         """Create; `latch` overrides the messages' latching."""

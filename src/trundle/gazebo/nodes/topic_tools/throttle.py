@@ -71,7 +71,7 @@ class Throttle:
         """Throttle until cancelled."""
         node = self._node
         settings = await private_parameters(node)
-        # The original reads the first; its manual, and therefore launch files, use the second.
+        # The original reads the first name; its manual, and therefore launch files, use the second.
         is_wall_clock = settings.flag("wall_clock", default=settings.flag("use_wall_clock", default=False))
         latch = settings.flag("force_latch", default=False) if "force_latch" in settings else None
         now_ns = time.time_ns if is_wall_clock else lambda: node.clock.now_ns()

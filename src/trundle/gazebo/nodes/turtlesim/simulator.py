@@ -17,13 +17,13 @@ if TYPE_CHECKING:
 _TICK_NS = 16_000_000
 """Timer period of the original's window."""
 _MAX_BEHIND_NS = 2_000_000_000
-"""Limit of catching up; commands last one second, so all turtles have stopped by then."""
+"""Maximum time that is caught up; commands last one second, so all turtles have stopped by then."""
 _UPDATES_PER_IMAGE = 6
 """Updates per image: ten images per second."""
 _BACKGROUND: Color = (0x45, 0x56, 0xFF)
 _MAX_TURTLES = 1000
 _MIN_PEN_PX = 1
-"""Width of a pen set without one."""
+"""Width of a pen for which no width was set."""
 
 
 class _SpawnedTurtle:

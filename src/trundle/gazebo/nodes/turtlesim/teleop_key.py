@@ -24,7 +24,7 @@ class TurtleTeleopKey:
     async def run(self) -> int:
         """Read keys until q, or until cancelled."""
         node = self._node
-        # Not private: launch files set them outside <node>.
+        # Not private names: launch files set these parameters outside <node>.
         scales = {name: await node.params.get(name, 2.0) for name in ("scale_linear", "scale_angular")}
         settings = RosParameters(scales, node.resolve("scale_linear").rpartition("/")[0])
         linear, angular = settings.number("scale_linear"), settings.number("scale_angular")

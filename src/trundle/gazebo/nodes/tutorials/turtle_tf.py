@@ -67,7 +67,7 @@ class TurtleFollower:
             try:
                 x, y, _ = buffer.lookup_transform(_FOLLOWER, _LEADER).translation
             except TransformError:
-                pass  # not broadcast yet
+                pass  # the transforms are not broadcast yet
             else:
                 yaw_rate, speed = _TURN_GAIN * math.atan2(y, x), _SPEED_GAIN * math.hypot(x, y)
                 commands.publish({"linear": {"x": speed}, "angular": {"z": yaw_rate}})

@@ -20,9 +20,9 @@ _HEIGHT = 1.2138
 _QUARTER_TURN = 1.5707
 """π/2 as Gazebo's source has it [rad]: skins face −y and lie on their backs."""
 _TARGET_RADIUS, _MIN_TARGET_DISTANCE, _REPULSION_RANGE = 0.3, 2.0, 4.0
-"""Distances [m]: at a target, between a new target and models, and at which models repel."""
+"""Distances [m]: at which a target counts as reached, from a new target to models, and within which models repel."""
 _MIN_TURN = math.radians(10)
-"""Heading error [rad] above which it turns on the spot, by a thousandth of the error at each step."""
+"""Heading error [rad] above which the actor turns on the spot, by a thousandth of the error at each step."""
 _X, _Y = (-3.0, 3.5), (-10.0, 2.0)
 """Bounds of the actor's position [m]."""
 _MAX_TRIES = 1000

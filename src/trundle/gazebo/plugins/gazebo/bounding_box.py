@@ -46,7 +46,7 @@ def _mesh_extent(geometry: MeshFile) -> tuple[Vector3, Vector3]:
     assert geometry.path is not None
     try:
         mesh = load_mesh(geometry.path, submesh=geometry.submesh, center=geometry.center_submesh)
-    except MeshError:  # physics has already reported it
+    except MeshError:  # physics has already reported the mesh
         return (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
     vertices = mesh.scaled(geometry.scale).vertices
     low, high = vertices.min(axis=0).tolist(), vertices.max(axis=0).tolist()

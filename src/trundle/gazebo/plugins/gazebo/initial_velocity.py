@@ -14,7 +14,7 @@ from ..plugin import Plugin
 class InitialVelocity(Plugin):
     """Sets <linear> [m/s] and <angular> [rad/s], in world axes, of each free link before the first step."""
 
-    period_ns = 1 << 62  # once, at the start
+    period_ns = 1 << 62  # called once, at the start
 
     def __init__(self, model: ModelHandle, twist: Twist) -> None:
         self._model = model

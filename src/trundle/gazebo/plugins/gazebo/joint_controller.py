@@ -36,11 +36,11 @@ class ControlledJoint:
         self._step_effort += effort
 
     def command_position(self, target: float | None, pid: Pid | None = None) -> None:
-        """Set the target position [rad or m]; None keeps the target, or the gains."""
+        """Set target position [rad or m] and gains; None keeps the present value."""
         self._position = _Loop(pid or self._position.pid, self._position.target if target is None else target)
 
     def command_velocity(self, target: float | None, pid: Pid | None = None) -> None:
-        """Set the target velocity [rad/s or m/s]; None keeps the target, or the gains."""
+        """Set target velocity [rad/s or m/s] and gains; None keeps the present value."""
         self._velocity = _Loop(pid or self._velocity.pid, self._velocity.target if target is None else target)
 
     def update(self, sim: Simulation) -> None:

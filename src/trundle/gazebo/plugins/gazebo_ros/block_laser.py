@@ -22,7 +22,7 @@ def attach(sensor: InstrumentSensor, parameters: TagParameters, names: PluginNam
         names.frame(parameters.text("frameName", "/world")),
     )
     noise, random = parameters.number("gaussianNoise", 0.0), np.random.default_rng(0)
-    parameters.ignore("hokuyoMinIntensity", "updateRate")  # gazebo_ros reads neither
+    parameters.ignore("hokuyoMinIntensity", "updateRate")  # gazebo_ros reads neither of these
 
     def message(reading: RangeReading) -> dict[str, object]:
         ranges = np.nan_to_num(reading.ranges.reshape(-1), posinf=reading.scan.max_m, neginf=reading.scan.min_m)

@@ -22,7 +22,7 @@ def rate_to_period_ns(rate_hz: float) -> int:
 
 
 def read_offset(parameters: TagParameters, names: Collection[str]) -> Pose:
-    """Read those of <xyzOffset> and <rpyOffset> that are in `names`; many files spell them with an s at the end."""
+    """Read the offsets in `names`, of <xyzOffset> and <rpyOffset>; many files spell them with an s at the end."""
     xyz, rpy = (
         parameters.vector(name, parameters.vector(f"{name}s", ZERO)) if name in names else ZERO
         for name in ("xyzOffset", "rpyOffset")

@@ -21,7 +21,7 @@ class UpdateRateThrottle:
         if time_ns < self._next_ns:
             return False
         self._next_ns += self._period_ns
-        if self._next_ns <= time_ns:  # there was no subscriber for a while
+        if self._next_ns <= time_ns:  # readings were skipped while there was no subscriber
             self._next_ns = time_ns + self._period_ns
         return True
 

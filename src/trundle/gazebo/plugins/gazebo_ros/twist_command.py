@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class TwistCommand:
-    """Last command, valid until the next."""
+    """Last command, which holds until the next one."""
 
     def __init__(self, names: PluginNames, topic: str) -> None:
         """Subscribe to geometry_msgs/Twist."""

@@ -84,7 +84,7 @@ def group_by_pair(
 
 
 def forces_oppose(forces: Sequence[NDArray[np.float64]], min_angle_rad: float) -> bool:
-    """True if two of the forces are further apart than an angle, and neither is much weaker."""
+    """True if the angle between two of the forces exceeds a limit, and neither force is much weaker than the other."""
     for a, b in combinations(forces, 2):
         strong, weak = sorted((float(np.linalg.norm(a)), float(np.linalg.norm(b))), reverse=True)
         if weak < _MIN_FORCE or weak < _MIN_RATIO * strong:

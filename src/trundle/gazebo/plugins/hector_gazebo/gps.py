@@ -1,4 +1,4 @@
-"""libhector_gazebo_ros_gps.so: geodetic position of a link, and its velocity north and west."""
+"""libhector_gazebo_ros_gps.so: geodetic position of a link, and its velocity to the north and west."""
 
 import math
 

@@ -60,7 +60,7 @@ class FourWheelDrive:
                 queue_size=1,
             ),
         )
-        settings.flag("open_loop", default=False)  # without effect in the original, too
+        settings.flag("open_loop", default=False)  # the original declares it without effect, too
         self._is_running = False
         self._pose = (0.0, 0.0, 0.0)
         """x, y [m] and yaw [rad]."""
@@ -83,7 +83,7 @@ class FourWheelDrive:
         self._angles: tuple[int, float, float, float] = (-1, 0.0, 0.0, 0.0)
         """Stamp [ns], speed [m/s], front and rear angle [rad]."""
         self._samples: deque[tuple[float, float, float, float]] = deque(maxlen=self._window + 1)
-        """Speed [m/s], both angles [rad] and time since the sample before [s]."""
+        """Speed [m/s], both angles [rad] and time since the previous sample [s]."""
         self._is_running = True
 
     def update(self, time_ns: int, dt: float) -> None:

@@ -48,7 +48,7 @@ class JointHardware(ServoJoint):
         self.interface = interface
 
     def rebind(self) -> None:
-        """Follow the joint in a new engine, after models were spawned, deleted or edited."""
+        """Use the joint's new handle, after models were spawned, deleted or edited."""
         self.bind(self.handle.motor)
 
 

@@ -182,7 +182,7 @@ class ControllerManager:
         return True
 
     def _switch_error(self, name: str, state: str) -> str:
-        """Return why a controller cannot be stopped (`state` "running") or started (""); empty: it can."""
+        """Return why a controller cannot be stopped (`state` "running") or started (`state` ""); empty if it can be."""
         loaded = self._loaded.get(name)
         if loaded is None:
             verb = "stop" if state else "start"

@@ -117,7 +117,7 @@ class GazeboRosControl(Plugin):
         node, is_logged = self._node, False
         name = f"{self._namespace}/{self._param}"
         while not node.closed.is_set():
-            for candidate in (name, f"/{self._param}"):  # as searchParam from the robot's namespace
+            for candidate in (name, f"/{self._param}"):  # upwards from the robot's namespace, as searchParam
                 text = await node.params.get(candidate, None)
                 if isinstance(text, str) and text.strip():
                     gains = await node.params.get(f"{self._namespace}/gazebo_ros_control/pid_gains", {})
@@ -150,7 +150,7 @@ class GazeboRosControl(Plugin):
             self._node.log.fatal(f"gazebo_ros_control: {error}; no joint is controlled")
             return
         self._servo = Servo(list(self._hardware.values()))
-        self._servo.longest_ns = self.period_ns  # after an undone reset the state may be older
+        self._servo.longest_ns = self.period_ns  # the state may be older than the last read after a reset is undone
         self._servo.restart(self._sim.time_ns)
         self._sim.on_change(self._rebind)
         self._manager = ControllerManager(self._node, self._namespace, self._hardware, self._servo, self._model)
@@ -161,7 +161,7 @@ class GazeboRosControl(Plugin):
         return max(_LAG_STEPS * self._sim.step_ns, 1.5 * self.period_ns) / 1e9
 
     def _rebind(self) -> None:
-        """Follow the joints in a new engine, perhaps with another time step."""
+        """Use the joints' new handles, and the new time step."""
         for joint in self._hardware.values():
             if joint.handle.is_valid:
                 joint.rebind()

@@ -58,7 +58,7 @@ class TrajectoryController(InStepController):
         self._goal = NO_GOAL
         """Number of the last goal of the action."""
         self._settle_goal: Callable[[ActionResult], None] | None = None
-        """Called once with the result of the action's goal."""
+        """Function to call once with the result of the action's goal."""
         self._is_running = False
         self._advertise(context)
 

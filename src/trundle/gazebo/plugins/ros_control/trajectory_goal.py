@@ -1,4 +1,4 @@
-"""Trajectory messages as paths of joints, which continue the current paths; rules of ros_controllers'
+"""Trajectory messages as paths of joints that continue the current paths, by the rules of ros_controllers'
 initJointTrajectory.
 """
 
@@ -38,7 +38,7 @@ class GoalError(ValueError):
         super().__init__(text)
         self.code = code
         self.is_late = is_late
-        """True if it arrived too late; a warning only, since streams of commands are late at times."""
+        """True if the trajectory arrived too late; a warning only, since streams of commands are sometimes late."""
 
 
 class PathSegment(Struct, frozen=True):
@@ -95,7 +95,7 @@ def stopping_path(
 ) -> JointPath:
     """Return a path that decelerates from a state to rest.
 
-    Its end is the midpoint of a segment that returns to the position with the opposite velocity after twice the time.
+    It ends at the midpoint of a segment that returns to the position with the opposite velocity after twice the time.
     """
     start, mirrored = JointState(position, velocity, 0.0), JointState(position, -velocity, 0.0)
     return_segment = JointSegment.between(time_ns, start, time_ns + 2 * duration_ns, mirrored)
@@ -208,7 +208,7 @@ class _SegmentMaker(Struct, frozen=True):
 
 
 def _with_goal(path: JointPath, now_ns: int, goal: int) -> JointPath:
-    """Return the path as part of a goal that does not name its joint."""
+    """Return the path as part of a goal that does not name the path's joint."""
     first = path.index_at(now_ns)
     if first < 0:
         return path

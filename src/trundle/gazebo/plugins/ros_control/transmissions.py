@@ -23,7 +23,7 @@ def read_transmissions(urdf: str, name: str, report: Diagnostics) -> list[Driven
     """Read every joint that a transmission drives, in file order; warn of invalid ones and leave them out.
 
     Rules of transmission_interface's TransmissionParser and gazebo_ros_control's DefaultRobotHWSim; an interface in
-    the <actuator> counts, as before Indigo.
+    the <actuator> counts, too, as before Indigo.
 
     Args:
         urdf: robot as XML.
@@ -55,7 +55,7 @@ def read_transmissions(urdf: str, name: str, report: Diagnostics) -> list[Driven
 
 
 def _find_fault(transmission: XmlNode) -> str | None:
-    """Fault for which the original drops a transmission with all its joints; None: valid."""
+    """Fault for which the original drops a transmission with all its joints; None if it is valid."""
     if not transmission.attribute("name"):
         return "has no name"
     if not transmission.string("type"):

@@ -45,7 +45,7 @@ class ControllerInterface(RosPlugin):
         self._sim, self._motors = sim, node.advertise(motor_topic, _ACTUATORS, queue_size=1)
         node.subscribe(command_topic, _ACTUATORS, self._forward, queue_size=1)
         for name in ("commandAttitudeThrustSubTopic", "commandRateThrustSubTopic", "imuSubTopic"):
-            parameters.ignore(name)  # without effect in the original, too
+            parameters.ignore(name)  # it has no effect in the original, too
 
     def _forward(self, message: Message) -> None:
         header = {"stamp": self._sim.time_ns}
