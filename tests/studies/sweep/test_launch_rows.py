@@ -135,7 +135,7 @@ def test_a_name_that_only_a_program_could_use_is_warned_of(plan: Path) -> None:
 
     assert first.endswith(
         "plan.yaml:8: warning: parameters/box_descriptio: the launch sets no parameter '/box_descriptio'; "
-        "the nearest is '/box_description'; each run has it all the same"
+        "the nearest is '/box_description'; each run sets it nevertheless"
     )
     assert second.endswith(
         "plan.yaml:7: warning: models/bo/links/body/inertial/mass: the launch names no model 'bo'; "

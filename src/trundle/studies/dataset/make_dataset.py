@@ -32,9 +32,9 @@ class DatasetResult:
     folder: Path
     done: int
     total: int
-    """Pictures of the plan."""
+    """Number of pictures of the plan."""
     rate: float
-    """Pictures per second of wall time of this call [1/s]."""
+    """Pictures made per second of wall time in this call [1/s]."""
     failed: Mapping[int, str]
     """Number of a failed picture → reason; if any failed, files of the whole dataset are not written."""
     interrupted: bool
@@ -60,7 +60,7 @@ def make_dataset(
         TrundleError: the pictures cannot be made or written.
     """
     check_workers(workers)
-    maker = picture_maker(plan)  # refuses an invalid plan once, not in each process
+    maker = picture_maker(plan)  # reading it here refuses an invalid plan once, not in each process
     plan, digest = maker.plan, dataset_digest(maker)
     path = (output or Path(plan.file).with_suffix(".dataset")).resolve()
     job = Job(make=partial(_picture_writer, plan, path))
@@ -117,7 +117,7 @@ def _picture_writer(plan: DatasetPlan, path: Path) -> Callable[[int], str]:
         except TrundleError as error:
             return str(error)
         except OSError as error:
-            return f"{error.filename or path}: {error.strerror}"  # errors of `write` have no file name
+            return f"{error.filename or path}: {error.strerror}"  # errors of `write` may have no file name
         return ""
 
     return write

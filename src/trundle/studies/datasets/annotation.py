@@ -32,9 +32,9 @@ class Box3d(Struct, frozen=True, kw_only=True):
     """Box along a model's axes."""
 
     world_from_box: Numbers
-    """x y z [m] of its centre, qw qx qy qz."""
+    """x y z [m] of the centre, qw qx qy qz."""
     size: Numbers
-    """Lengths along its axes [m]."""
+    """Lengths along the box's axes [m]."""
 
 
 class KeyPointAnnotation(Struct, frozen=True, kw_only=True):
@@ -44,9 +44,9 @@ class KeyPointAnnotation(Struct, frozen=True, kw_only=True):
     world: Numbers
     """[m]"""
     pixel: Numbers | None
-    """None: behind the camera or outside the picture."""
+    """Pixel; None: the point is behind the camera or outside the picture."""
     is_visible: bool
-    """True if nothing hides it, not even its own model."""
+    """True if nothing hides the point, not even its own model."""
 
 
 class Mask(Struct, frozen=True, kw_only=True):
@@ -61,7 +61,7 @@ class ObjectAnnotation(Struct, frozen=True, kw_only=True):
     """Visible object."""
 
     instance: int
-    """Value in the segmentation."""
+    """Number of the object in the segmentation."""
     model: str
     category: str
     world_from_model: Numbers
@@ -74,9 +74,9 @@ class ObjectAnnotation(Struct, frozen=True, kw_only=True):
     pixels: int
     """Number of visible pixels."""
     occlusion: float
-    """Fraction of its part within the picture that other objects hide."""
+    """Fraction that other objects hide, of the object's part within the picture."""
     truncation: float
-    """Fraction of it outside the picture."""
+    """Fraction of the object that is outside the picture."""
     mask: Mask
     key_points: tuple[KeyPointAnnotation, ...] = ()
 

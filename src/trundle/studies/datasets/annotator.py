@@ -22,7 +22,7 @@ from .view import View
 
 _Array = NDArray[np.float64]
 _HIDDEN_M, _HIDDEN_RATIO = 0.01, 0.01
-"""Minimum distance between a key point and what hides it [m], and as a ratio of its depth."""
+"""Minimum distance by which a surface in front hides a key point: in [m], and as a ratio of the point's depth."""
 
 
 class Annotator:

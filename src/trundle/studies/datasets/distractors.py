@@ -13,11 +13,11 @@ from trundle.robots.model import Box, Capsule, Collision, Cylinder, Inertial, Li
 from .plan import DistractorPlan
 
 _PER_SHOWN = 3
-"""Number of distractors per one that a picture may show."""
+"""Ratio of the number of distractors to the number that a picture may show."""
 _DENSITY = 400.0
 """[kg/m³]"""
 _POOL = 1 << 32
-"""Second part of the seed, larger than any picture's number."""
+"""Second part of the seed; other seeds have a picture's number, which is smaller."""
 
 
 def distractor_models(plan: DistractorPlan, seed: int) -> list[Model]:

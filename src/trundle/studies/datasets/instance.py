@@ -10,7 +10,7 @@ class Instance:
     """Model that a picture may show."""
 
     number: int
-    """Value in segmentations, from 1, the same in every picture."""
+    """Number in segmentations, from 1 on, the same in every picture."""
     model: str
     """Name in the world."""
     placement: Placement

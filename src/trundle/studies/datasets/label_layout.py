@@ -27,7 +27,7 @@ def layout_labels(
     """
     all_boxes = np.reshape(np.array(boxes, dtype=np.float64), (-1, 4))
     areas = (all_boxes[:, 2] - all_boxes[:, 0]) * (all_boxes[:, 3] - all_boxes[:, 1])
-    placed = np.zeros_like(all_boxes)  # unplaced labels cover nothing
+    placed = np.zeros_like(all_boxes)  # empty rectangles, so that labels not placed yet cover nothing
     for i in np.argsort(areas, kind="stable"):
         candidates = _within(np.array(list(_candidates(boxes[i], sizes[i]))), bounds)
         is_detached = ~np.array([touches_box(candidate, boxes[i]) for candidate in candidates.tolist()])

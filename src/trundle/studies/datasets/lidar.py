@@ -20,7 +20,7 @@ class Cloud(Struct, frozen=True, eq=False):
     instances: NDArray[np.uint16]
     """(N,) number of the instance hit; 0: the rest of the world."""
     classes: NDArray[np.uint16]
-    """(N,) number of its category, from 1 on; 0: the rest of the world."""
+    """(N,) number of the instance's category, from 1 on; 0: the rest of the world."""
 
 
 class Lidar:

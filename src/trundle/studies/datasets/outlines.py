@@ -8,7 +8,7 @@ from trundle.spatial import pose_from_row, transform_points
 
 _Array = NDArray[np.float64]
 _MAX_POINTS = 2000
-"""Maximum points of a shape; of more, only the outermost are kept."""
+"""Maximum number of points of a shape; of more points, only the outermost are kept."""
 _DIRECTIONS = 1024
 _GOLDEN_ANGLE = 2.399963229728653
 

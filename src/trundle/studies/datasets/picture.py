@@ -88,7 +88,7 @@ class PictureMaker:
         if self.plan.camera.noise:
             seed = int(random_stream(self.plan.seed, number, NOISE).integers(1 << 63))
             add_color_noise(rgb, seed=seed, mean=0.0, stddev=self.plan.camera.noise)
-        instances = self._annotator.numbers.take(shapes, mode="wrap")  # -1, no shape, is the last
+        instances = self._annotator.numbers.take(shapes, mode="wrap")  # index -1, no shape, is the last entry
         objects = self._annotator.annotate(arrangement, view, depth, instances)
         cloud = None if self._lidar is None else self._lidar.scan(view.world_from_camera, self.renderer, scene)
         annotation = PictureAnnotation(

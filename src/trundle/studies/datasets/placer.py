@@ -22,13 +22,13 @@ from .surface import Surface
 _Array = NDArray[np.float64]
 _ATTEMPTS = 40
 _MAX_ARRANGEMENTS = 5
-"""Maximum arrangements drawn until one comes to rest."""
+"""Maximum number of arrangements drawn until one comes to rest."""
 _CLEARANCE_M = 1e-3
-"""Height above a surface."""
+"""Height at which a model is placed above a surface [m]."""
 _MAX_OVERLAP_M = 5e-4
-"""Penetration that counts as touching."""
+"""Penetration up to which models only touch [m]."""
 _PARKING_HEIGHT_M = 20_000.0
-"""Height of models absent from a picture; `settle` ends before they reach the ground."""
+"""Height of models that a picture does not show [m]; `settle` ends before they reach the ground."""
 _PARKING_SPACING_M = 50.0
 
 

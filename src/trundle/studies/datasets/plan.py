@@ -60,7 +60,7 @@ class KeyPoint:
     name: str
     at: Source
     link: str | None
-    """None: the model's frame."""
+    """Link of the point; None: the model's frame."""
     point: Vector3
     """[m]"""
 
@@ -75,11 +75,11 @@ class ObjectPlan:
     """File or model://…; None: the model of this name in the world."""
     category: str
     count: Quantity
-    """Instances in a picture."""
+    """Number of instances in a picture."""
     placement: Placement
     paint: Paint
     joints: Mapping[str, Quantity] | Literal["any"] = field(default_factory=dict[str, Quantity])
-    """Joint → position [rad or m]; "any": all joints, between their limits."""
+    """Joint → position [rad or m]; "any": all joints anywhere between their limits."""
     key_points: tuple[KeyPoint, ...] = ()
 
 
@@ -104,7 +104,7 @@ class Orbit:
     """[m]"""
     azimuth: Quantity
     elevation: Quantity
-    """Above the horizon [rad]."""
+    """Angle above the horizon [rad]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

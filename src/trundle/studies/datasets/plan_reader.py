@@ -137,7 +137,7 @@ def _formats(node: YamlNode) -> tuple[Format, ...]:
 
 def _camera(node: YamlNode, objects: tuple[str, ...]) -> CameraPlan:
     if isinstance(node.value, str):
-        unused = constant(1.0)  # the sensor has these values
+        unused = constant(1.0)  # the camera's sensor has these values
         return CameraPlan(
             at=node.at,
             viewpoint=node.value,

@@ -29,9 +29,9 @@ class HiddenParts(Struct, frozen=True):
     """Hidden fractions of an object."""
 
     occlusion: float
-    """Fraction of its part within the picture that other objects hide."""
+    """Fraction that other objects hide, of the object's part within the picture."""
     truncation: float
-    """Fraction of it outside the picture."""
+    """Fraction of the object that is outside the picture."""
 
 
 class Silhouettes:
@@ -87,7 +87,8 @@ class Silhouettes:
 def _pixels_in(
     view: View, world_from_small: Pose, lens: Intrinsics, rows: NDArray[np.intp], columns: NDArray[np.intp]
 ) -> tuple[_Array, _Array, _Array]:
-    """Return the columns and rows in the picture [px] of a small picture's pixels, and the depths there per 1 m here.
+    """Return columns and rows in the picture [px] of a small picture's pixels, and the ratio of depths in the two
+    pictures.
 
     Both cameras have the same position, so the pixel does not depend on the depth.
     """

@@ -1,4 +1,4 @@
-"""Lock on a folder of results, against two sweeps that write to it."""
+"""Lock on a folder of results, so that only one sweep writes to it."""
 
 import errno
 from collections.abc import Generator

@@ -31,7 +31,7 @@ class Variation:
     values: tuple[Value, ...] = ()
     """Values of a grid; empty for a distribution."""
     paired_with: str | None = None
-    """Variation with whose values these are paired; None: every combination."""
+    """Variation with which this one is paired, value by value; None: every combination."""
     distribution: Distribution | None = None
 
 

@@ -12,7 +12,7 @@ from .property_path import ARGUMENTS
 from .rows import Row, Rows
 
 _MAX_VALUES = 32
-"""Maximum values of arguments besides those of the first row."""
+"""Maximum number of argument values besides those of the first row."""
 
 
 def argument_rows(plan: Plan, rows: Rows) -> Iterator[Row]:

@@ -55,7 +55,7 @@ def _check_parameters(launch: LoadedLaunch, assigned: Assignments, report: Diagn
         if name not in names and not any(other.startswith(f"{name}/") for other in names):
             closest = nearest(name, names)
             hint = f"; the nearest is {closest!r}" if closest else ""
-            report.warn(at, f"{path}: the launch sets no parameter {name!r}{hint}; each run has it all the same")
+            report.warn(at, f"{path}: the launch sets no parameter {name!r}{hint}; each run sets it nevertheless")
 
 
 def _spawned_names(launch: LoadedLaunch) -> Iterator[str]:

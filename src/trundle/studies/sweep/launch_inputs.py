@@ -45,7 +45,7 @@ def words_of(node: LaunchNode) -> Iterator[str]:
     try:
         words = shlex.split(node.arguments)
     except ValueError:
-        return  # the run reports it
+        return  # the run reports the error
     for before, word in zip(["", *words], words, strict=False):
         yield f"model://{word}" if before == _DATABASE else os.path.expanduser(word.removeprefix("file://"))
 
@@ -54,7 +54,7 @@ def _loaded(word: str, packages: Packages) -> list[World]:
     """Return the world of a file or URI; empty for another word."""
     if not (os.path.isfile(word) or word.startswith("model://") or packages.find_world(word) is not None):
         return []
-    with suppress(TrundleError):  # the run reports it
+    with suppress(TrundleError):  # the run reports the error
         return [load(word, Diagnostics(), packages=packages).world]
     return []
 

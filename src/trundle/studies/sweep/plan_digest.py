@@ -12,7 +12,7 @@ from .plan import Plan
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunInputs:
-    """Inputs of a run besides its plan."""
+    """Inputs of a run besides the plan."""
 
     worlds: tuple[World, ...]
     """Worlds and spawned models, as read."""

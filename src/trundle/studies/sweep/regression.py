@@ -10,7 +10,7 @@ from .plan import Plan
 from .run_sweep import SweepResult, run_sweep
 
 _SHOWN = 20
-"""Maximum runs listed in a message."""
+"""Maximum number of runs listed in a message."""
 
 
 def run_plan_test(plan: Plan, *, junit: Path | None) -> int:

@@ -32,7 +32,7 @@ def end_picture(plan: Plan, runner: RowRunner, row: Row) -> str | None:
         with runner.start(row) as run:
             simulation = run.simulation
             start = simulation.snapshot().poses
-            with suppress(TrundleError):  # unstable: the last good state
+            with suppress(TrundleError):  # the physics is unstable: the picture shows the last good state
                 run.advance(round(plan.duration_s * NS_PER_S))
             scene = scene_from_world(simulation.world, Diagnostics())
             scene = replace(scene, ambient=STUDIO_LIGHT, background=BACKDROP)

@@ -109,7 +109,7 @@ class Results:
                 yield row
 
     def add(self, result: RowResult) -> None:
-        """Add a result, which from then on survives a kill."""
+        """Add a result; it is on disk when the call returns."""
         if self._journal is None:
             self._journal = (self.folder / _JOURNAL).open("ab", buffering=0)
         self._journal.write(msgspec_json.encode(result) + b"\n")

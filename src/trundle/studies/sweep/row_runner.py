@@ -30,7 +30,7 @@ from .state_names import StateExpressions
 from .topics import TopicReader, topics_of
 
 _MAX_WORLDS = 8
-"""Maximum worlds cached, one per set of xacro arguments."""
+"""Maximum number of cached worlds, one per set of xacro arguments."""
 _RECORD_NS = NS_PER_S // 100
 """Resolution of the stamps in bags."""
 
@@ -125,11 +125,11 @@ class RowRunner:
                 with self.start(row, record=file, from_ns=from_ns) as run:
                     run.advance(round(result.time * NS_PER_S))
             except TrundleError:
-                pass  # as in the run itself
+                pass  # the error is the same as in the run itself
             return file.read_bytes() if file.exists() else None
 
     def check(self, row: Row) -> list[str]:
-        """Check all expressions and events at the start of a row; return warnings, none for a world.
+        """Check all expressions and events at the start of a row; return the warnings, of which a world has none.
 
         Raises:
             TrundleError: the plan cannot be run, with its line.

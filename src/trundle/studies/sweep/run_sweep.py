@@ -36,9 +36,9 @@ class SweepResult:
     counts: dict[str, int]
     """Status → number of rows: ok, failed (a criterion is not met), error, timeout, memory, lost."""
     total: int
-    """Rows of the plan."""
+    """Number of rows of the plan."""
     rate: float
-    """Rows per second of wall time of this call [1/s]."""
+    """Rows run per second of wall time in this call [1/s]."""
     interrupted: bool
     """True after Ctrl-C; the same sweep resumes the run."""
     _results: Results
@@ -85,7 +85,7 @@ def _inputs(plan: Plan, rows: Rows, runner: RowRunner | LaunchRowRunner) -> Iter
     first, *others = argument_rows(plan, rows)
     yield runner.inputs(first)
     for row in others:
-        with suppress(TrundleError):  # the row reports it
+        with suppress(TrundleError):  # the row reports the error
             yield runner.inputs(row)
 
 

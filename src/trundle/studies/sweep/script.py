@@ -59,7 +59,7 @@ class RunScript:
 
     @property
     def next_ns(self) -> int | None:
-        """Next time of an event or sample [ns]; None: none before the end."""
+        """Next time of an event or sample [ns]; None: there is none before the end."""
         times = [time_ns for time_ns, _ in self._events[self._next_event : self._next_event + 1]]
         return min([*times, *([] if self._next_sample_ns is None else [self._next_sample_ns])], default=None)
 

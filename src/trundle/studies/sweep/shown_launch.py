@@ -51,5 +51,5 @@ def show_launch(plan: Plan, row: Row, runner: LaunchRowRunner, at: PageAddress, 
             if not is_reported:
                 is_reported = True
                 report_shown(runner.result(row, setup), result, say)
-            if not setup.is_over and setup.simulation.time_ns < end_ns:  # it was reset
+            if not setup.is_over and setup.simulation.time_ns < end_ns:  # the simulation was reset
                 session.rewind()

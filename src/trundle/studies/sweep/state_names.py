@@ -45,7 +45,7 @@ class StateExpressions:
             return self._interpreter.evaluate(formula.text, ChainMap(dict(names), _FUNCTIONS))
         except NoMessageError:
             raise
-        except Exception as error:  # Python's own, as ZeroDivisionError
+        except Exception as error:  # any error of Python, such as ZeroDivisionError
             raise UsageError(f"{formula.at}: error: {formula.text}: {error}") from None
 
     def number(self, formula: Formula, names: Mapping[str, object]) -> float:

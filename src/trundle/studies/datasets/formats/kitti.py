@@ -52,7 +52,7 @@ def _link(picture: Path, path: Path) -> None:
     path.unlink(missing_ok=True)
     try:
         os.link(picture, path)
-    except OSError:  # a file system without hard links
+    except OSError:  # the file system has no hard links
         shutil.copyfile(picture, path)
 
 

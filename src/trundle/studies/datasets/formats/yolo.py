@@ -33,7 +33,7 @@ class YoloFormat(DatasetFormat):
 
     def finish(self, plan: DatasetPlan, folder: Path, read: ReadAll) -> None:
         """Write the list of classes."""
-        del read  # the classes are in the plan
+        del read  # the plan has the classes
         names = dict(enumerate(plan.categories))
         data: dict[str, object] = {"train": "images", "val": "images", "names": names}
         count = _key_point_count(plan)
