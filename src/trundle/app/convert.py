@@ -74,7 +74,7 @@ def _convert_recording(file: Path, to: Format, report: Diagnostics) -> str | byt
     from trundle.page.replay.page_file import replay_page
     from trundle.page.replay.recorded_motion import animated_world, motion_of_log
 
-    from .recorded_run import open_recording  # these import the physics, which few formats need
+    from .recorded_run import open_recording  # lazy: these modules import the physics, which only few formats need
 
     motion = motion_of_log(*open_recording(file, report), title=file.name)
     return replay_page(motion, report) if to == "html" else animated_world(motion, report)
@@ -91,7 +91,7 @@ def _convert_description(
         case "sdf":
             return write_sdf(loaded.world, is_world=loaded.kind == "world", uri_of=uri_of, report=report)
         case "mjcf":
-            from trundle.sim.physics import compile_mjcf  # slow to load; no other format needs it
+            from trundle.sim.physics import compile_mjcf  # lazy: slow to load, and no other format needs it
             from trundle.sim.render import scene_from_world
 
             return compile_mjcf(

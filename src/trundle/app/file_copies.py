@@ -18,7 +18,7 @@ _IMAGES = frozenset({".bmp", ".dds", ".jpeg", ".jpg", ".png", ".tga", ".tif", ".
 
 
 class FileCopies:
-    """Assigns each file a path in `meshes` or `textures` beside the output; `copy` writes them."""
+    """Assigns each file a path in `meshes` or `textures` beside the output; `copy` writes the files."""
 
     def __init__(self, output: Path, report: Diagnostics) -> None:
         self._output = output

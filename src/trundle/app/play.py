@@ -231,7 +231,7 @@ class LogPage:
         self._server.set_world(manifest, files)
 
     def _animation_state(self, actor: str) -> AnimationState:
-        """State of an actor's script at the displayed time; plugins' changes to it are not recorded."""
+        """State of an actor's script at the displayed time; a log does not record changes that plugins made to it."""
         player = self._simulation.actors.get(actor)
         return AnimationState() if player is None else player.animation_state(self._playback.time_ns)
 

@@ -11,7 +11,7 @@ from trundle.sim.comparison import Difference
 
 
 class TopicCounts(Struct, frozen=True, kw_only=True):
-    """Messages of a topic in both recordings, each with its own first."""
+    """Numbers of messages of a topic in the two recordings."""
 
     topic: str
     type: str
@@ -24,17 +24,17 @@ class RunDifferences(Struct, frozen=True, kw_only=True):
     """Differences of a recorded run from another."""
 
     duration: float
-    """Time that both have [s]."""
+    """Time that both recordings cover [s]."""
     rows: tuple[Difference, ...]
     """Differences: of poses first, the largest first."""
     unit: str
     """Unit of all differences, " [m, rad]"; empty: it depends on the row."""
     only: tuple[tuple[str, tuple[str, ...]], ...]
-    """Name of a recording, and the models or topics that it alone has."""
+    """Name of a recording, and the models or topics that only this recording has."""
     topics: tuple[TopicCounts, ...] = ()
-    """Topics that both have."""
+    """Topics that both recordings have."""
     notes: tuple[str, ...] = ()
-    """Sentences on the whole."""
+    """Sentences about the comparison as a whole."""
 
     def exceed(self, tolerance: float) -> tuple[Difference, ...]:
         """Return the rows whose maximum is above a tolerance, in each row's unit."""

@@ -11,9 +11,9 @@ from trundle.robots.names import anonymous_name
 from trundle.ros import MasterProxy, Messages, RosError, uri_host
 
 _TIMEOUT_S = 0.5
-"""Timeout of graph queries; the user waits for them."""
+"""Timeout of queries to the graph [s], for which the user waits."""
 _FRAMES_S = 5.0
-"""Timeout for the first transform."""
+"""Timeout for the first transform [s]."""
 
 
 def complete(parser: argparse.ArgumentParser, command: str) -> None:
@@ -33,7 +33,7 @@ def _completer(source: Callable[[], Iterable[str]]) -> Callable[..., list[str]]:
     def words(**_: Any) -> list[str]:
         try:
             return sorted(source())
-        except RosError:  # no master, no completions
+        except RosError:  # without a master there are no completions
             return []
 
     return words
@@ -62,7 +62,7 @@ def _machines() -> set[str]:
 
 
 def _frames() -> set[str]:
-    """Return the frames received within a short time, without more rarely published ones."""
+    """Return the frames received within a short time; frames published more rarely are missing."""
     import asyncio
 
     from trundle.ros import GraphLoop, Node, TransformListener

@@ -40,7 +40,7 @@ def main(args: argparse.Namespace) -> int:
     """Run until Ctrl-C, SIGTERM, SIGHUP, or a shutdown request."""
     if not 0 <= args.port < 65536:
         raise UsageError(f"a port lies between 0 and 65535, got {args.port}")
-    reasons: SimpleQueue[str] = SimpleQueue()  # not an Event: safe to use in a signal handler
+    reasons: SimpleQueue[str] = SimpleQueue()  # unlike an Event, safe to use in a signal handler
     for number in ending_signals()[1:]:
         signal.signal(number, lambda _number, _frame: reasons.put("terminated"))
     _warn_of_other_master(os.environ.get("ROS_MASTER_URI"), args.port)

@@ -63,7 +63,7 @@ def main(args: argparse.Namespace) -> int:
     from trundle.ros.rospy.environment import with_finder
 
     packages = Packages(os.environ, start=Path.cwd())
-    for variables in packages.hook_variables().values():  # like `source devel/setup.bash`
+    for variables in packages.hook_variables().values():  # as `source devel/setup.bash` does
         os.environ.update(variables)
     folder = packages.find_package(args.package)
     workspace = None if folder is None else packages.workspace_of(folder)
@@ -110,7 +110,7 @@ def _show_translation(program: Path) -> int:
 
 
 def _choose_program(first: Path, programs: list[Path]) -> Path:
-    """Return the program to run among those of one name: the user's choice at a terminal, else the first."""
+    """Return the program to run among several of the same name: the user's choice at a terminal, else the first."""
     if len(programs) < 2:
         return first
     if not sys.stdin.isatty():

@@ -28,7 +28,7 @@ class Expression:
         """
         try:
             return eval(self._code, names)
-        except Exception as error:  # user code may raise anything
+        except Exception as error:  # an expression may raise anything
             location = f" on {names['topic']}" if "topic" in names else ""
             raise UsageError(f"{self._text!r} fails{location}: {type(error).__name__}: {error}") from None
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 _LISTS = tuple(f"{depth}*.{ending}" for ending in ("repos", "rosinstall") for depth in ("", "*/", "*/*/"))
-"""Patterns of lists of repositories, in a repository or beside it."""
+"""Patterns of the files that list repositories, in a repository or beside it."""
 _MAX_LISTS = 5
 
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class IntermixedParser(argparse.ArgumentParser):
-    """Allows options between positional arguments: `pub /cmd_vel geometry_msgs/Twist -r 10 -- '[1, 0, 0]' …`."""
+    """Parser that allows options between positional arguments: `pub /cmd_vel geometry_msgs/Twist -r 10 -- '…'`."""
 
     _is_inside = False
 

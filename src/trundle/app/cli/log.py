@@ -20,7 +20,7 @@ EXAMPLES = """
 _QUEUE_SIZE = 10_000
 """Queue size for slow terminals; the oldest lines are dropped."""
 _POLL_S = 0.5
-"""Timeout of a wait [s]: Linux may deliver Ctrl-C's signal to another thread."""
+"""Longest single wait [s]: Linux may deliver Ctrl-C's signal to another thread, which does not end the wait."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

@@ -76,7 +76,7 @@ _INTERMIXED = (
 )
 """Commands with options between arguments, as in roslaunch: `trundle launch robot.launch --headless gui:=false`."""
 _DISK_ERRORS = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
-"""Errors when writing an open file."""
+"""Error numbers of writes to an open file."""
 EXIT_OK, EXIT_INPUT, EXIT_USAGE, EXIT_INTERRUPTED = 0, 1, 2, 130
 
 
@@ -131,7 +131,7 @@ def _main(arguments: list[str]) -> int:
 
 
 def _run_original(arguments: Sequence[str]) -> int:
-    """Run a command under its name in ROS or Gazebo; 0 after Ctrl-C, as those return."""
+    """Run a command under its name in ROS or Gazebo; returns 0 after Ctrl-C, as the originals do."""
     if not arguments or arguments[0] not in ORIGINALS:
         print(f"trundle --as: expected one of {', '.join(ORIGINALS)}", file=sys.stderr)
         return EXIT_USAGE
@@ -139,7 +139,7 @@ def _run_original(arguments: Sequence[str]) -> int:
     name, *words = ORIGINALS[program]
     if "_ARGCOMPLETE" in os.environ:
         _complete_original(program)
-    if name == "exec" and words and arguments[1:2] in (["-h"], ["--help"]):  # which exec would pass on to the node
+    if name == "exec" and words and arguments[1:2] in (["-h"], ["--help"]):  # `exec` would pass --help on to the node
         print(f"usage: {program} [ARGUMENTS]\n\nexamples:\n  {program}\n\nOpen {program}'s panel of the page.")
         return EXIT_OK
     if program in EXIT_CODES:
@@ -170,10 +170,10 @@ def _run(name: str, arguments: Sequence[str], *, program: str) -> int:
         parsed = parse(words.rest, argparse.Namespace(words=words, run_command=run_command))
         _set_variables(parsed)
         code = _command(name).main(parsed)
-        if sys.stdout is not None:  # None if closed: `trundle … >&-`
+        if sys.stdout is not None:  # None if the stream is closed: `trundle … >&-`
             sys.stdout.flush()
         return code
-    except SystemExit as system_exit:  # raised by argparse: 0 after --help, 2 for wrong usage
+    except SystemExit as system_exit:  # argparse raises it: with 0 after --help, with 2 for wrong usage
         return int(system_exit.code or 0)
     except TrundleError as error:
         message = str(error) if _has_location(str(error)) else f"{program}: error: {error}"
@@ -187,7 +187,7 @@ def _run(name: str, arguments: Sequence[str], *, program: str) -> int:
     except BrokenPipeError:  # `trundle topic echo … | head`
         _discard_stdout()
         return EXIT_OK
-    except OSError as error:  # mostly files that cannot be written
+    except OSError as error:  # mostly for files that cannot be written
         if shortage(error) is not None:
             raise
         if error.filename is not None:

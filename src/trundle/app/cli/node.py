@@ -224,7 +224,7 @@ def _kill(args: argparse.Namespace) -> int:
                 failed.append(node)
             else:
                 _call_node(uri, "shutdown", "user request")
-        except (OSError, RosError):  # many nodes exit before they answer
+        except (OSError, RosError):  # many nodes end before they answer
             pass
     if failed:
         print("ERROR: Failed to kill:\n" + "\n".join(f" * {node}" for node in failed), file=sys.stderr)

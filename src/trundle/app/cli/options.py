@@ -17,7 +17,7 @@ _Options = TypeVar("_Options", bound="DataclassInstance")
 
 
 def field_option(parser: argparse.ArgumentParser) -> Callable[..., argparse.Action]:
-    """Return a function that declares an option for the field `dest`, with the default of `read_options`' dataclass."""
+    """Return a function that declares an option for the field `dest`, with the default of the options' class."""
     return partial(parser.add_argument, default=argparse.SUPPRESS)
 
 
@@ -29,7 +29,7 @@ def read_options(kind: type[_Options], args: argparse.Namespace, **more: object)
         args: arguments; those with a field's name set it.
         more: values of further fields.
     """
-    from dataclasses import fields  # which takes inspect with it
+    from dataclasses import fields  # lazy: dataclasses imports inspect
 
     names = {field.name for field in fields(kind)}
     values: dict[str, Any] = {name: value for name, value in vars(args).items() if name in names}

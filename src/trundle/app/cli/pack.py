@@ -90,7 +90,7 @@ def _get(args: argparse.Namespace, _: Packages) -> int:
         if code := fetch_packages(names, args, for_files=True):
             return code
         fetched.update(names)
-        args.yes = True  # the first answer includes dependencies of the fetched packages
+        args.yes = True  # the first fetch includes the dependencies of the fetched packages
     print("nothing is missing" if not fetched else "all available packages are fetched")
     return 0
 

@@ -235,5 +235,5 @@ def _angle(text: str, interpreter: "Interpreter") -> float:
         if text.startswith("deg("):
             return math.radians(float(inner))
         return interpreter.evaluate_number(inner, MATH_NAMES)
-    except Exception:  # user code may raise anything
+    except Exception:  # an expression may raise anything
         raise UsageError(f"not an angle: {text!r}") from None

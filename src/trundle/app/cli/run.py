@@ -70,7 +70,7 @@ def main(args: argparse.Namespace) -> int:
     try:
         result = run(args.file, options)
     except TrundleError as error:
-        if args.json:  # like `check --json`, for scripts that always read it
+        if args.json:  # an empty result, as of `check --json`, for scripts that always read one
             at, message = (
                 (error.at, error.what) if isinstance(error, DescriptionError) else (Source(args.file), str(error))
             )

@@ -22,7 +22,7 @@ def wait_for_topic(proxy: MasterProxy, name: str, messages: Messages) -> TopicFi
                 if field.path and messages.has(field.type):
                     field_type(field.type, field.path, messages)
                 return field
-            except UsageError as error:  # /imu/data may be a later topic besides /imu
+            except UsageError as error:  # beside /imu, a topic /imu/data may appear later
                 detail = f"; {field.topic} is: {error}"
         if not warned:
             warned = True

@@ -20,7 +20,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", type=Path, metavar="FILE", help="the file to expand")
     parser.add_argument("arguments", nargs="*", metavar="NAME:=VALUE", help="arguments of the file")
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="output file")
-    parser.add_argument("-i", "--inorder", action="store_true", help=argparse.SUPPRESS)  # always in order
+    parser.add_argument("-i", "--inorder", action="store_true", help=argparse.SUPPRESS)  # xacro always reads in order
     add_allow_outside(parser)
     add_lenient(parser)
 

@@ -24,7 +24,7 @@ class Check:
 
 
 def table(checks: list[Check]) -> str:
-    """Return the checks as columns: state, name, finding; the cost is on the next line."""
+    """Return the checks as columns: state, name, finding; the consequence is on the next line."""
     width = max(len(check.name) for check in checks)
     lines: list[str] = []
     for check in checks:

@@ -70,7 +70,7 @@ def _nodes_in(states: dict[str, str], state: str) -> Iterator[str]:
 
 
 def _state(proxy: MasterProxy, node: str) -> str:
-    """Return `alive`, `dead`, or `unknown` if a node's host has no address here."""
+    """Return `alive`, `dead`, or `unknown` if this machine cannot resolve the node's host."""
     try:
         uri = str(proxy.call("lookupNode", node))
         socket.getaddrinfo(uri_host(uri), None)
@@ -106,5 +106,5 @@ def _waiting(proxy: MasterProxy, publishers: dict[str, Any]) -> Iterator[str]:
     try:
         if proxy.call("getParam", "/use_sim_time") and not publishers.get("/clock"):
             yield "/use_sim_time is true; a simulator that was started with it may be gone"
-    except RosError:  # it is not set
+    except RosError:  # the parameter is not set
         return

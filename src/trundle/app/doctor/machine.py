@@ -16,7 +16,7 @@ from .check import Check
 _COMPILERS = ("c++", "g++", "clang++")
 _BROWSERS = ("chromium", "chromium-browser", "google-chrome", "firefox", "epiphany", "safari", "msedge")
 _BAD_MUJOCO = "4.0.0"
-"""Version whose sparse Newton factor is wrong."""
+"""Version of MuJoCo whose sparse Newton factor is wrong."""
 _EXTRAS = {
     "av": ("video", "videos cannot be written; pip install 'trundle[video]'"),
     "OpenGL": ("egl", "--renderer egl is not available, the CPU's is; pip install 'trundle[egl]'"),

@@ -40,7 +40,7 @@ _MAX_PX = 3840 * 2160
 _GOLDEN = 0.61803398875
 _COLORS = [(0.0, 0.0, 0.0)] + [hsv_to_rgb(i * _GOLDEN % 1.0, 0.5 + i % 3 * 0.2, 1.0 - i % 2 * 0.3) for i in range(255)]
 _PALETTE = np.round(np.array(_COLORS) * 255.0).astype(np.uint8)
-"""(256, 3) RGB: black for the background, then colors of which consecutive ones differ much."""
+"""(256, 3) RGB: black for the background, then colors; consecutive ones differ much."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,7 +81,7 @@ class PictureRenderer:
         loaded = load_world(file, packages, report)
         self._content = options.content
         self.empty_reason = empty_reason(loaded.flat)
-        """Reason why the picture is empty or drawn from the URDF without physics; None: neither."""
+        """Reason why the picture is empty, or drawn from the URDF without physics; None if it is neither."""
         self.simulation = Simulation(loaded.flat, report)
         scene = scene_from_world(loaded.flat, report)
         self._static_poses: NDArray[np.float64] = np.zeros((0, 7))

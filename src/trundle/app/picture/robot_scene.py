@@ -18,7 +18,7 @@ def robot_scene(robot: Robot, packages: Packages, report: Diagnostics, *, collis
 
     A mesh that cannot be found or read is reported and left out.
     """
-    links = sorted(robot.links, key=lambda link: link.name != robot.root)  # stable: the others stay in file order
+    links = sorted(robot.links, key=lambda link: link.name != robot.root)  # stable: others stay in file order
     shapes: list[Shape] = []
     for body, link in enumerate(links):
         for shape in link.collisions if collisions else link.visuals:

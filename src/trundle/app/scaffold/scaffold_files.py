@@ -23,9 +23,9 @@ class Scaffold:
     files: Mapping[str, str]
     """Path with @NAME@ → template."""
     next_steps: tuple[str, ...]
-    """Commands that run it."""
+    """Commands that run the scaffold."""
     needs_package: bool = False
-    """True: ROS finds it only in a package."""
+    """True: ROS finds the file only in a package."""
     is_camel_case: bool = False
 
 

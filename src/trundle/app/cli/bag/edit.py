@@ -26,7 +26,7 @@ from ..expression import Expression, expression
 
 _PERIOD_S = 1.0
 _OTHER_COLUMNS = 37
-"""Columns of the line other than the path."""
+"""Number of columns of the line besides the path."""
 
 
 def filter_bag(args: argparse.Namespace) -> int:
@@ -82,7 +82,7 @@ def reindex(args: argparse.Namespace) -> int:
 
 
 Opened = tuple[int, Iterator[BagMessage]]
-"""Size [bytes] and messages."""
+"""Size [bytes] and number of messages of a bag."""
 Opening = Callable[[Path], AbstractContextManager[Opened]]
 
 
@@ -95,7 +95,7 @@ def _indexed(path: Path) -> Generator[Opened]:
 @contextmanager
 def _cut_off(path: Path) -> Generator[Opened]:
     messages = recover_messages(path)
-    first = list(islice(messages, 1))  # raises for invalid files before the meter starts
+    first = list(islice(messages, 1))  # opening raises for invalid files, before the meter starts
     yield path.stat().st_size, chain(first, messages)
 
 

@@ -59,7 +59,7 @@ def main(args: argparse.Namespace) -> int:
             while args.loop:
                 player.play(poll)
         print_text("\nDone.\n")
-        loop.flush_deliveries()  # then slow subscribers get a little more time
+        loop.flush_deliveries()  # slow subscribers get a little more time
         time.sleep(_CONNECTED_S)
     return 0
 

@@ -88,7 +88,7 @@ def _log(text: str) -> None:
 
 @contextmanager
 def _uninterrupted() -> Generator[None]:
-    """Ignore signals while a bag is closed: a second Ctrl-C must not cost its index."""
+    """Ignore signals while a bag is being closed, so that a second Ctrl-C does not leave it without an index."""
     old_handlers = {number: signal.signal(number, signal.SIG_IGN) for number in ending_signals()}
     try:
         yield

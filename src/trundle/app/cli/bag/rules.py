@@ -26,7 +26,7 @@ class Migration:
 
     old: MessageClass
     new: MessageClass | None
-    """None if the type is unknown."""
+    """Class of the known type; None if the type is unknown."""
     path: list[MigrationStep]
     missing: list[Rule]
 

@@ -106,7 +106,7 @@ def build_workspace(args: argparse.Namespace) -> int:
 
 
 def _sourced_original() -> str | None:
-    """Return the machine's catkin_make if a ROS with roscpp is sourced, which then builds."""
+    """Return the machine's catkin_make if a ROS with roscpp is sourced; else None."""
     prefixes = os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep)
     is_sourced = any(os.path.isfile(os.path.join(prefix, _CONFIG)) for prefix in prefixes if prefix)
     return find_system_program("catkin_make") if is_sourced else None

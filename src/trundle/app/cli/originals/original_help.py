@@ -17,7 +17,7 @@ EXIT_CODES = {
 }
 """Command → exit codes without a subcommand, and after `help`."""
 _GZ = "gz"
-"""Prints its help on stderr, also for an unknown subcommand or option, such as `gz --versions`."""
+"""Commands that print their help on stderr, also for an unknown subcommand or option, such as `gz --versions`."""
 
 
 def print_original_help(program: str, arguments: Sequence[str], parser: argparse.ArgumentParser) -> int | None:

@@ -48,7 +48,7 @@ ORIGINALS: dict[str, tuple[str, ...]] = {
     "xacro": ("xacro",),
     "xterm": ("originals.xterm", "xterm"),
 }
-"""Command → module in `trundle.app.cli`, and arguments that precede the user's."""
+"""Command → module in `trundle.app.cli`, and arguments that come before the user's."""
 
 FUNCTIONS = ("roscd",)
 """Commands that the shell runs itself, since they change its working directory."""

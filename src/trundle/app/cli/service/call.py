@@ -74,7 +74,7 @@ def service_type(proxy: MasterProxy, name: str) -> str:
     kind = asyncio.run(probe_service(uri, name, f"/{_SCRIPT}")).get("type")
     if not kind:
         raise ServiceError(f"Unable to determine type of service [{name}].")
-    return kind.removesuffix("Request")  # some roscpp versions append it
+    return kind.removesuffix("Request")  # some versions of roscpp append "Request"
 
 
 def argument_names(kind: str, messages: Messages | None = None) -> str:

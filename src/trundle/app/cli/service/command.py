@@ -106,7 +106,7 @@ def _find(args: argparse.Namespace) -> int:
         try:
             if _type_of(proxy, name) == args.type:
                 names.append(name)
-        except RosError:  # ended, or does not answer
+        except RosError:  # the provider has ended, or does not answer
             continue
     print("\n".join(names))
     return 0

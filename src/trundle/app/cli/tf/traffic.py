@@ -19,9 +19,9 @@ class FrameStatistics:
     caller: str
     is_static: bool
     stamps: deque[float] = field(default_factory=lambda: deque[float](maxlen=_WINDOW))
-    """Header stamps [s]."""
+    """Stamps of the transforms [s]."""
     delays: deque[float] = field(default_factory=lambda: deque[float](maxlen=_WINDOW))
-    """Age on arrival [s]."""
+    """Age of the transforms on arrival [s]."""
 
     @property
     def rate_hz(self) -> float | None:

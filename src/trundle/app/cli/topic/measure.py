@@ -31,7 +31,7 @@ def main(args: argparse.Namespace) -> int:
                     meter.add_message if condition is None else _filtered(meter.add_message, condition, field.topic)
                 )
                 kind = "*" if condition is None else field.type
-                if condition is not None:  # warm up: a slow first read would cause a burst
+                if condition is not None:  # a first read, which is slow and would cause a burst later
                     loop.messages.deserialize(loop.messages.serialize(loop.messages.new(kind)), kind)
                 node.subscribe(field.topic, kind, callback, queue_size=None, tcp_nodelay=args.tcpnodelay)
             elif is_delay:
@@ -49,7 +49,7 @@ def main(args: argparse.Namespace) -> int:
         while True:
             try:
                 time.sleep(1.0)
-            finally:  # on Ctrl-C, also report the last second
+            finally:  # on Ctrl-C, the last second is reported, too
                 text = report(meters)
                 if text:
                     print(text, flush=True)

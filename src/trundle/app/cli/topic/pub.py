@@ -14,7 +14,7 @@ from ..yaml_input import piped_documents, yaml_file, yaml_value
 _ONCE_S = 3.0
 _PIPED_HZ = 10.0
 _SUBSCRIBER_S = 5.0
-"""Timeout for a first subscriber before messages from a file or standard input."""
+"""Time to wait for a first subscriber before messages from a file or standard input [s]."""
 
 
 def main(args: argparse.Namespace) -> int:
