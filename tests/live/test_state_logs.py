@@ -6,6 +6,7 @@ import pytest
 from tests.gazebo_server import PATIENCE_S, Gazebo, until
 
 import trundle
+from trundle.app.cli import main
 from trundle.base.diagnostics import UsageError
 from trundle.gazebo.nodes.gazebo import GazeboServer
 from trundle.live.state_logs import PageRecording
@@ -50,7 +51,7 @@ def test_an_unwritable_log_folder_is_reported_and_the_world_continues(bare_gazeb
     (tmp_path / "taken").write_text("")
     _record(bare_gazebo, tmp_path / "taken")
     bare_gazebo.call("unpause_physics")
-    until(lambda: any("recording ends" in line for line in bare_gazebo.lines))
+    until(lambda: any("recording failed" in line for line in bare_gazebo.lines))
     bare_gazebo.until_s(bare_gazebo.time_s + 0.05)
 
 
@@ -98,3 +99,44 @@ def test_a_recording_that_cannot_be_written_is_refused(tmp_path: Path, monkeypat
         recording.set(True)
 
     assert recording.since_ns is None
+
+
+_SPAWNING = """<sdf version="1.6"><world name="w">
+<model name="first"><link name="l"><inertial><mass>1</mass></inertial></link>
+<plugin name="spawn" filename="libspawner.so"/></model></world></sdf>"""
+_SPAWNER = """
+from msgspec.structs import replace
+from trundle import Plugin
+
+class Spawner(Plugin):
+    period_ns = 500_000_000
+
+    @classmethod
+    def load(cls, sim, model, node, tag):
+        return cls()
+
+    def before_step(self, sim):
+        if sim.time_ns == 500_000_000:
+            sim.spawn(replace(sim["first"].model, name="second", plugins=()))
+        elif sim.time_ns == 1_000_000_000:
+            sim.delete("second")
+"""
+
+
+def test_a_run_is_recorded_on_in_a_further_file_when_its_models_change(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "w.sdf").write_text(_SPAWNING)
+    (tmp_path / "spawner.py").write_text(_SPAWNER)
+
+    words = ("run", "w.sdf", "--headless", "--no-ros", "--speed", "max", "--duration", "1.5", "--record", "run.log")
+    assert main([*words]) == 0
+
+    logs = [read_state_log(tmp_path / name) for name in ("run.log", "run-2.log", "run-3.log")]
+    assert [log.links for log in logs] == [("first::l",), ("first::l", "second::l"), ("first::l",)]
+    assert [(float(log.times_s[0]), float(log.times_s[-1])) for log in logs] == [
+        pytest.approx(times, abs=0.021) for times in ((0.0, 0.5), (0.5, 1.0), (1.0, 1.5))
+    ]
+    assert '<model name="second"' in logs[1].sdf
+    assert "recording into run-2.log; trundle play shows it" in "".join(capsys.readouterr())

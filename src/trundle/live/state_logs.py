@@ -24,56 +24,43 @@ def start_state_log(path: Path, simulation: Simulation, world: World, report: Di
     return recorder
 
 
-class RunRecorder:
-    """Hook that logs a run until a write fails."""
+class WorldRecorder:
+    """Hook that logs a world until a write fails; each change of its models starts the next file."""
 
     period_ns = StateRecorder.period_ns
 
-    def __init__(self, recorder: StateRecorder, say: Callable[[str], None]) -> None:
-        self._recorder = recorder
+    def __init__(self, simulation: Simulation, file: Path, say: Callable[[str], None]) -> None:
+        """Record into `file`, such as `run.log`, then into `run-2.log` and so on.
+
+        Args:
+            simulation: simulation to record.
+            file: its folder is created if needed; files of earlier recordings are overwritten.
+            say: prints each file's path, and a failed write.
+        """
+        self._simulation = simulation
+        self._file = file
         self._say = say
+        self._files = 0
+        self._names: object = None
+        self._recorder: StateRecorder | None = None
         self.has_failed = False
         """True after a failed write; no more is written."""
+
+    def start(self, world: World) -> None:
+        """Start the first file with the current state; `trundle play` shows `world`.
+
+        Raises:
+            OSError: it cannot be written.
+        """
+        self._names = self._present_names()
+        self._files = 1
+        self._recorder = start_state_log(self._file, self._simulation, world, self._simulation.report)
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Write the state, unless a write has failed."""
         if self.has_failed:
             return
-        try:
-            self._recorder.after_step(snapshot)
-        except OSError as error:
-            self._say(f"recording failed: {error.filename}: {error.strerror}; trundle play shows what was recorded")
-            self.has_failed = True
-
-    def close(self) -> None:
-        """Close the file."""
-        self._recorder.close()
-
-
-class WorldRecorder:
-    """Hook that logs a world with changing models; each change starts the next file."""
-
-    period_ns = StateRecorder.period_ns
-
-    def __init__(self, simulation: Simulation, folder: Path, say: Callable[[str], None]) -> None:
-        """Record into `state.log`, then `state-2.log` and so on.
-
-        Args:
-            simulation: simulation to record.
-            folder: created if needed; files of earlier recordings are overwritten.
-            say: prints each file's path, and a failed write.
-        """
-        self._simulation = simulation
-        self._folder = folder
-        self._say = say
-        self._files = 0
-        self._names: object = None
-        self._recorder: StateRecorder | None = None
-
-    def after_step(self, snapshot: Snapshot) -> None:
-        """Write the state."""
-        compiled = self._simulation.engine.compiled
-        names = (compiled.link_names, compiled.joint_names)
+        names = self._present_names()
         try:
             if names != self._names:
                 self._names = names
@@ -81,8 +68,10 @@ class WorldRecorder:
             elif self._recorder is not None:
                 self._recorder.after_step(snapshot)
         except OSError as error:
+            self.has_failed = True
             self.close()
-            self._say(f"recording ends: {self._folder}: {error.strerror}")
+            reason = f"{error.filename or self._file}: {error.strerror}"
+            self._say(f"recording failed: {reason}; trundle play shows what was recorded")
 
     def close(self) -> None:
         """Close the file."""
@@ -95,11 +84,16 @@ class WorldRecorder:
         """True while a file is open."""
         return self._recorder is not None
 
+    def _present_names(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        compiled = self._simulation.engine.compiled
+        return compiled.link_names, compiled.joint_names
+
     def _begin(self) -> None:
         self.close()
         self._files += 1
-        self._folder.mkdir(parents=True, exist_ok=True)
-        path = self._folder / ("state.log" if self._files == 1 else f"state-{self._files}.log")
+        file = self._file
+        file.parent.mkdir(parents=True, exist_ok=True)
+        path = file if self._files == 1 else file.with_stem(f"{file.stem}-{self._files}")
         simulation = self._simulation
         self._recorder = start_state_log(path, simulation, simulation.world, simulation.report)
         self._say(f"recording into {path}; trundle play shows it")
@@ -140,7 +134,7 @@ class PageRecording:
             self._recorder = None
         if on:
             folder = _make_folder()
-            recorder = self._recorder = WorldRecorder(self._simulation, folder, self._say)
+            recorder = self._recorder = WorldRecorder(self._simulation, folder / "state.log", self._say)
             self._since_ns = self._simulation.time_ns
             recorder.after_step(self._simulation.snapshot())
             if not recorder.is_recording:

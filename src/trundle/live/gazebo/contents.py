@@ -86,7 +86,7 @@ class GazeboContents:
         """Start state logs in a folder (None: without), sensors and plugins."""
         live, simulation = self.live, self.live.simulation
         if record is not None:
-            self._recorder = WorldRecorder(simulation, record, self._say)
+            self._recorder = WorldRecorder(simulation, record / "state.log", self._say)
             simulation.add_hook(self._recorder, period_ns=self._recorder.period_ns)
         live.start_sensors()
         broadcaster = StaticTransformBroadcaster(self._node)

@@ -17,7 +17,7 @@ from ..world_setup import LoadedWorld, load_world
 from .run_options import RunOptions
 
 if TYPE_CHECKING:  # a run without a graph or a recording starts without their modules
-    from ..state_logs import RunRecorder
+    from ..state_logs import WorldRecorder
     from .ros_interface import RosInterface
 
 
@@ -46,7 +46,7 @@ class RunningWorld:
         self._show = show
         self._resources = ExitStack()
         self.ros: RosInterface | None = None
-        self.recorder: RunRecorder | None = None
+        self.recorder: WorldRecorder | None = None
         self.loaded, self.live = self._read()
 
     def _read(self) -> tuple[LoadedWorld, LiveWorld]:
@@ -109,10 +109,10 @@ class RunningWorld:
             self._show.line(self.ros.graph.summary)
 
     def _record(self, file: Path) -> None:
-        from ..state_logs import RunRecorder, start_state_log
+        from ..state_logs import WorldRecorder
 
-        log = start_state_log(file, self.simulation, self.loaded.nested, self._report)
-        recorder = self.recorder = RunRecorder(log, self._show.line)
+        recorder = self.recorder = WorldRecorder(self.simulation, file, self._show.line)
+        recorder.start(self.loaded.nested)
         self.simulation.add_hook(recorder, period_ns=recorder.period_ns)
         self._resources.callback(recorder.close)
 
