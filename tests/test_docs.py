@@ -40,12 +40,24 @@ def test_blocks_of_a_page_run(page: Path, tmp_path: Path) -> None:
     run_page(page, tmp_path)
 
 
+_WITH_THE_RP2W = (
+    "README.md",
+    "docs/start.md",
+    "docs/python.md",
+    "docs/howto/drive.md",
+    "docs/howto/python_page.md",
+    "docs/howto/sweep.md",
+    "src/trundle/assets/lessons/rp2w.md",
+)
+
+
 @pytest.mark.slow
-def test_the_readme_runs_with_the_tutorials_model(shared: Path, tmp_path: Path) -> None:
-    """The tutorial's model has precedence over Trundle's model; its name is my_robot."""
+@pytest.mark.parametrize("page", _WITH_THE_RP2W)
+def test_a_page_runs_where_the_tutorials_model_is(page: str, shared: Path, tmp_path: Path) -> None:
+    """`model://rp2w` is the tutorial's then, whose model is my_robot; worlds of Trundle keep Trundle's."""
     (tmp_path / ".gazebo/models").mkdir(parents=True)
     (tmp_path / ".gazebo/models/rp2w").symlink_to(shared / "seeds/rp2w")
-    run_page(ROOT / "README.md", tmp_path)
+    run_page(ROOT / page, tmp_path)
 
 
 def test_blocks_that_are_not_run_have_known_reasons() -> None:

@@ -118,7 +118,7 @@ def test_lessons_are_listed_and_a_view_only_client_reads_no_other_file(
     reader.at("A robot in SDF")
     reader.step.get_by_text("It starts by:").wait_for()
     assert reader.copy(reader.step.get_by_role("button", name="Copy", exact=True).first) == (
-        "trundle run model://rp2w --lesson rp2w"
+        "trundle run rp2w.world --lesson rp2w"
     )
     user.button("Close the lesson").click()
     user.button("Lessons").click()
@@ -148,7 +148,7 @@ def test_the_lesson_of_the_rp2w_is_done_from_its_first_step_to_its_last(chromium
         "XDG_CACHE_HOME": str(tmp_path / "cache"),
         "ROS_MASTER_URI": f"http://127.0.0.1:{free_port()}/",
     }
-    words = ("run", "model://rp2w", "--lesson", "rp2w", "--port", "0")
+    words = ("run", "rp2w.world", "--lesson", "rp2w", "--port", "0")
     with running_page(*words, environment=home, folder=tmp_path) as url:
         user = WorldUser(chromium, url)
         user.look_down()

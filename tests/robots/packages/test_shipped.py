@@ -117,6 +117,41 @@ def test_a_model_of_the_same_name_comes_before_its_stand_in(tmp_path: Path) -> N
     assert not [f for f in report.findings if "stand-in" in f.what]
 
 
+def _tutorials_folder(home: Path) -> Packages:
+    """Packages of a user who has models with the names of Trundle's, as the Gazebo tutorial says."""
+    for name in ("rp2w", "ball", "sun", "beer"):
+        folder = home / ".gazebo/models" / name
+        folder.mkdir(parents=True)
+        (folder / "model.config").write_text("<model><sdf version='1.4'>model.sdf</sdf></model>")
+        text = "<sdf version='1.4'><model name='my_robot'><link name='user'/></model></sdf>"
+        (folder / "model.sdf").write_text(text)
+    return Packages({"HOME": str(home)}, start=HERE)
+
+
+@pytest.mark.parametrize("name", ["rp2w_at_home.world", "rp2w.world", "living_room.world", "empty.world"])
+def test_a_shipped_world_takes_trundles_models_where_a_user_has_some_of_the_same_name(
+    name: str, tmp_path: Path
+) -> None:
+    shipped = load(name, Diagnostics(), packages=PACKAGES).world
+    theirs = load(name, Diagnostics(), packages=_tutorials_folder(tmp_path)).world
+
+    assert [_parts(model) for model in theirs.models] == [_parts(model) for model in shipped.models]
+    assert theirs.lights == shipped.lights
+
+
+def test_a_users_file_takes_the_users_models_and_trundles_own_those_of_trundle(tmp_path: Path) -> None:
+    packages = _tutorials_folder(tmp_path)
+    world = tmp_path / "my.world"
+    includes = "".join(f"<include><uri>model://{name}</uri></include>" for name in ("ball", "rp2w_camsave"))
+    world.write_text(f"<sdf version='1.6'><world name='w'>{includes}</world></sdf>")
+
+    (named,) = load("model://rp2w", Diagnostics(), packages=packages).world.models
+    ball, camsave = load(str(world), Diagnostics(), packages=packages).world.models
+
+    assert [link.name for link in named.links] == [link.name for link in ball.links] == ["user"]
+    assert "chassis" in [link.name for link in camsave.links]
+
+
 def test_the_tutorials_display_launch_is_there_for_others_to_include(tmp_path: Path) -> None:
     folder = PACKAGES.find_package("urdf_tutorial")
     assert folder is not None

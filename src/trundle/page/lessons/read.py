@@ -5,7 +5,7 @@ A line of a fence with the language `check` is a check of the step, in YAML: `pu
 `topics`, or `model: rp2w`. Front matter may say what the lesson needs:
 
     ---
-    start: trundle run model://rp2w --lesson rp2w
+    start: trundle run rp2w.world --lesson rp2w
     needs: {model: rp2w}
     ---
 """

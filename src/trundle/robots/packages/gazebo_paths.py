@@ -14,8 +14,9 @@ from .package_cache import PackageCache
 from .ros_packages import RosPackages
 from .workspace import ancestor_folders, distinct_folders
 
-_CHECKOUT_EXAMPLES = [path for path in [ASSETS.parents[2] / "examples"] if os.path.isdir(path / "rp2w")]
+CHECKOUT_EXAMPLES = [path for path in [ASSETS.parents[2] / "examples"] if os.path.isdir(path / "rp2w")]
 """Examples in a source checkout; a wheel has them in ASSETS."""
+_SHIPPED = [ASSETS, *CHECKOUT_EXAMPLES]
 _FUEL_CACHES = (".gz/fuel", ".ignition/fuel")
 """Download folders of newer Gazebo's tools, below HOME."""
 _SUFFIXES = (".", "worlds", "models", "media/models", "Media/models", "media")
@@ -29,6 +30,11 @@ def is_stand_in(path: Path) -> bool:
     by Gazebo contain mesh URIs and scales in place of an <include>.
     """
     return ASSETS / "stand_ins" in path.parents
+
+
+def is_shipped(path: Path) -> bool:
+    """True if a file comes with Trundle: its `model://` is Trundle's own model, also where a user has one so named."""
+    return any(folder in path.parents for folder in _SHIPPED) and os.path.isfile(path)
 
 
 _MAX_MODELS = 5000
@@ -48,20 +54,14 @@ class GazeboPaths:
 
     @property
     def model_folders(self) -> list[Path]:
-        """Model folders: Gazebo's in its order, Trundle's, added ones."""
+        """Model folders: Gazebo's in its order, Trundle's (first for Trundle's own files), added ones."""
         return [*self._standard_model_folders, *self._cache.added_models]
 
     @cached_property
     def _standard_model_folders(self) -> list[Path]:
-        return distinct_folders(
-            [
-                self._home / ".gazebo" / "models",
-                *self._named_models,
-                *self._exported("gazebo_model_path"),
-                ASSETS / "models",
-                *_CHECKOUT_EXAMPLES,
-            ]
-        )
+        shipped = [ASSETS / "models", *CHECKOUT_EXAMPLES]
+        users = [self._home / ".gazebo" / "models", *self._named_models, *self._exported("gazebo_model_path")]
+        return distinct_folders([*shipped, *users] if is_shipped(self._start) else [*users, *shipped])
 
     @cached_property
     def resource_folders(self) -> list[Path]:
@@ -71,7 +71,7 @@ class GazeboPaths:
             *self._exported("gazebo_media_path"),
             *self._exported("gazebo_resource_path"),
             ASSETS,
-            *_CHECKOUT_EXAMPLES,
+            *CHECKOUT_EXAMPLES,
         ]
 
     def find_model(self, name: str) -> Path | None:

@@ -14,7 +14,7 @@ from trundle.robots.repositories import repository_hint
 
 from .confinement import Confinement
 from .env_hooks import hook_prefix, hook_variables
-from .gazebo_paths import GazeboPaths, is_stand_in
+from .gazebo_paths import GazeboPaths, is_shipped, is_stand_in
 from .package_cache import PackageCache
 from .ros_packages import RosPackages
 from .stock import DESCRIPTIONS, STOCK
@@ -60,6 +60,10 @@ class Packages:
         if file.absolute() == self._start:
             return self
         return Packages(self._environment, start=file, fallback=self)
+
+    def for_included(self, file: Path) -> "Packages":
+        """Return the finder for a file that another one includes: this one, but for Trundle's own files."""
+        return self.around(file) if is_shipped(file) and not is_shipped(self._start) else self
 
     def find_package(self, name: str) -> Path | None:
         """Return the folder of a ROS package, or None."""

@@ -40,7 +40,14 @@ class Context(Struct, frozen=True, kw_only=True):
 
     def for_include(self, file: Path, version: Version) -> "Context":
         """Return the context of an included file."""
-        return replace(self, version=version, folder=file.parent, including=(*self.including, file))
+        resolved = file.resolve()
+        return replace(
+            self,
+            version=version,
+            folder=resolved.parent,
+            packages=self.packages.for_included(file),
+            including=(*self.including, resolved),
+        )
 
 
 def warn_ignored(node: XmlNode, tags: Iterable[str], why: str, context: Context) -> None:

@@ -88,12 +88,12 @@ def _root(file: Path, node: XmlNode, context: Context) -> tuple[XmlNode, Context
         raise DescriptionError(node.at, f"{file} includes itself")
     root = read_xml(file, report=context.report, max_depth=DEEPEST, budget=context.budget, at=node.at)
     if root.tag == "robot":
-        return root, context.for_include(file.resolve(), context.version)
+        return root, context.for_include(file, context.version)
     if root.tag != "sdf":
         raise DescriptionError(root.at, f"<{root.tag}> starts neither an SDF (<sdf>) nor a URDF (<robot>)")
     version = read_version(root, context.report)
     name_missing_attributes(root, version, context.report)
-    return root, context.for_include(file.resolve(), version)
+    return root, context.for_include(file, version)
 
 
 def _robot(model: Model, context: Context) -> UnplacedModel:
