@@ -41,8 +41,8 @@ def test_a_recovered_error_becomes_a_warning_at_its_own_source() -> None:
     """The warning names the position and the severity once."""
     report = Diagnostics()
 
-    report.warn_error(DescriptionError(Source("b.urdf", 3), "no mesh"), Source("a.urdf", 1), "it is left out")
-    report.warn_error(UsageError("no joint"), Source("a.urdf", 1), "it is left out", subject="plugin 'p'")
+    report.warn_error(DescriptionError(Source("b.urdf", 3), "no mesh"), Source("a.urdf", 1), "it is left out", "mesh")
+    report.warn_error(UsageError("no joint"), Source("a.urdf", 1), "it is left out", "mesh", subject="plugin 'p'")
 
     assert report.warnings == [
         "b.urdf:3: warning: no mesh; it is left out",

@@ -37,7 +37,7 @@ def test_an_invalid_description_is_an_error(trundle, tmp_path: Path, command, na
 def test_a_missing_file_is_an_error(trundle) -> None:
     done = trundle("run", "nowhere.sdf", "--headless")
 
-    assert (done.returncode, done.stderr) == (1, "nowhere.sdf: error: no such file or folder\n")
+    assert (done.returncode, done.stderr) == (1, "nowhere.sdf: error: no such file or folder [missing-file]\n")
 
 
 def test_errors_of_check_are_printed_as_json(trundle, tmp_path: Path) -> None:
@@ -49,7 +49,9 @@ def test_errors_of_check_are_printed_as_json(trundle, tmp_path: Path) -> None:
     assert json.loads(done.stdout) == {
         "kind": None,
         "models": [],
-        "diagnostics": [{"severity": "error", "file": "empty.sdf", "line": 1, "message": "the file is empty"}],
+        "diagnostics": [
+            {"severity": "error", "file": "empty.sdf", "line": 1, "message": "the file is empty", "id": "empty-file"}
+        ],
     }
 
 
@@ -59,8 +61,8 @@ def test_errors_of_run_are_printed_as_json_with_a_similar_file_name(trundle, tmp
     done = trundle("run", "robt.sdf", "--json", "--headless")
 
     message = "no such file or folder (did you mean 'robot.sdf'?)"
-    assert (done.returncode, done.stderr) == (1, f"robt.sdf: error: {message}\n")
-    finding = {"severity": "error", "file": "robt.sdf", "line": None, "message": message}
+    assert (done.returncode, done.stderr) == (1, f"robt.sdf: error: {message} [missing-file]\n")
+    finding = {"severity": "error", "file": "robt.sdf", "line": None, "message": message, "id": "missing-file"}
     assert json.loads(done.stdout) == {"models": [], "diagnostics": [finding]}
 
 
@@ -96,7 +98,10 @@ def test_run_refuses_a_launch_file(trundle, tmp_path: Path) -> None:
     done = trundle("run", "arm.xml", "--headless", "--no-ros")
 
     assert done.returncode == 1
-    assert done.stderr == "arm.xml:1: error: a launch file, not a robot or a world; `trundle launch` starts it\n"
+    assert (
+        done.stderr
+        == "arm.xml:1: error: a launch file, not a robot or a world; `trundle launch` starts it [wrong-root]\n"
+    )
 
 
 def test_the_error_of_an_unknown_launch_argument_lists_the_arguments(trundle, tmp_path: Path) -> None:
@@ -105,7 +110,9 @@ def test_the_error_of_an_unknown_launch_argument_lists_the_arguments(trundle, tm
     done = trundle("launch", "a.launch", "guy:=false")
 
     assert done.returncode == 1
-    assert done.stderr == "a.launch:1: error: no argument 'guy' to set; the file's arguments: 'gui'\n"
+    assert (
+        done.stderr == "a.launch:1: error: no argument 'guy' to set; the file's arguments: 'gui' [unknown-argument]\n"
+    )
 
 
 def test_a_page_port_in_use_is_an_error_before_the_run(trundle, tmp_path: Path) -> None:

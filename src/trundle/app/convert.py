@@ -104,7 +104,9 @@ def _convert_description(
         case "urdf":
             models = flattened(loaded.world).models
             if len(models) != 1:
-                raise DescriptionError(loaded.world.at, f"a URDF describes one robot, not {len(models)} models")
+                raise DescriptionError(
+                    loaded.world.at, f"a URDF describes one robot, not {len(models)} models", "not-writable-urdf"
+                )
             return write_urdf(models[0], uri_of=uri_of, report=report)
 
 

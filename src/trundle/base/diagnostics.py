@@ -1,7 +1,8 @@
 """Warnings and errors of reading files, with their source positions.
 
 A `Diagnostics` is passed in by the caller; there is no global log. Every command imports this module, so it has no
-dataclasses: their module takes longer to load than light commands take to run.
+dataclasses: their module takes longer to load than light commands take to run. A finding has the ID of an entry in
+`trundle.base.explanations`, which `trundle explain ID` prints.
 
     TrundleError
     ├── DescriptionError           a file cannot be interpreted
@@ -66,6 +67,8 @@ class TrundleError(Exception):
 
     __module__ = "trundle"
 
+    id: str = ""
+    """ID that `trundle explain` explains; empty: it has none."""
     missing_packages: tuple[str, ...] = ()
     """Names of missing ROS packages."""
 
@@ -81,8 +84,9 @@ class UsageError(TrundleError):
 
     __module__ = "trundle"
 
-    def __init__(self, what: str, *, missing_packages: tuple[str, ...] = ()) -> None:
+    def __init__(self, what: str, *, id: str = "", missing_packages: tuple[str, ...] = ()) -> None:
         """State the error."""
+        self.id = id or self.id
         self.missing_packages = missing_packages
         super().__init__(what)
 
@@ -93,22 +97,29 @@ class DescriptionError(TrundleError):
     __module__ = "trundle"
 
     def __init__(
-        self, at: Source, what: str, *, more: "Iterable[DescriptionError]" = (), missing_packages: tuple[str, ...] = ()
+        self,
+        at: Source,
+        what: str,
+        id: str = "",
+        *,
+        more: "Iterable[DescriptionError]" = (),
+        missing_packages: tuple[str, ...] = (),
     ) -> None:
         """State the error, and further ones in `more`."""
+        self.id = id or self.id
         self.missing_packages = missing_packages
         self.at = at
         self.what = what = printable(what)
         self.more = tuple(more)
-        super().__init__("\n".join([f"{at}: error: {what}", *map(str, self.more)]))
+        super().__init__("\n".join([str(Diagnostic("error", at, what, self.id)), *map(str, self.more)]))
 
 
 class UnknownArgumentError(DescriptionError):
     """Argument that a xacro or launch file does not declare."""
 
-    def __init__(self, at: Source, what: str, *, name: str) -> None:
+    def __init__(self, at: Source, what: str, id: str, *, name: str) -> None:
         """State the error; `name` is the argument's name."""
-        super().__init__(at, what)
+        super().__init__(at, what, id)
         self.name = name
 
 
@@ -147,6 +158,7 @@ class DiagnosticJson(TypedDict):
     file: str
     line: int | None
     message: str
+    id: str
 
 
 class Diagnostic(NamedTuple):
@@ -157,12 +169,24 @@ class Diagnostic(NamedTuple):
     severity: Severity
     at: Source
     what: str
+    id: str = ""
+    """ID that `trundle explain` explains; empty: it has none."""
 
     def __str__(self) -> str:
+        return f"{self.sentence()} [{self.id}]" if self.id else self.sentence()
+
+    def sentence(self) -> str:
+        """Return the finding on one line, without its ID."""
         return f"{self.at}: {self.severity}: {self.what}"
 
     def as_json(self) -> DiagnosticJson:
-        return {"severity": self.severity, "file": self.at.file, "line": self.at.line, "message": self.what}
+        return {
+            "severity": self.severity,
+            "file": self.at.file,
+            "line": self.at.line,
+            "message": self.what,
+            "id": self.id,
+        }
 
 
 class Diagnostics:
@@ -176,39 +200,40 @@ class Diagnostics:
         self.findings: list[Diagnostic] = []
         self._seen: set[Diagnostic] = set()
 
-    def warn(self, at: Source, what: str) -> None:
+    def warn(self, at: Source, what: str, id: str = "") -> None:
         """Add a warning; its sentence states the fallback.
 
         Raises:
             DescriptionError: in strict mode.
         """
         if self.strict:
-            raise DescriptionError(at, what)
-        self._add(Diagnostic("warning", at, what))
+            raise DescriptionError(at, what, id)
+        self._add(Diagnostic("warning", at, what, id))
 
-    def warn_error(self, error: TrundleError, at: Source, otherwise: str, *, subject: str = "") -> None:
+    def warn_error(self, error: TrundleError, at: Source, otherwise: str, id: str, *, subject: str = "") -> None:
         """Add a recovered error as a warning.
 
         Args:
             error: recovered error.
             at: position for an error without a source of its own.
             otherwise: fallback, as a clause.
+            id: ID for an error without one of its own.
             subject: begins the sentence; empty: none.
 
         Raises:
             DescriptionError: in strict mode.
         """
         where, what = (error.at, error.what) if isinstance(error, DescriptionError) else (at, str(error))
-        self.warn(where, f"{subject}: {what}; {otherwise}" if subject else f"{what}; {otherwise}")
+        self.warn(where, f"{subject}: {what}; {otherwise}" if subject else f"{what}; {otherwise}", error.id or id)
 
-    def info(self, at: Source, what: str) -> None:
+    def info(self, at: Source, what: str, id: str = "") -> None:
         """Add a note on an applied rule that may surprise the file's author."""
-        self._add(Diagnostic("info", at, what))
+        self._add(Diagnostic("info", at, what, id))
 
     def error(self, error: DescriptionError) -> None:
         """Add the error that ended reading, with the further errors in it."""
         for part in (error, *error.more):
-            self._add(Diagnostic("error", part.at, part.what))
+            self._add(Diagnostic("error", part.at, part.what, part.id))
 
     def extend(self, findings: Iterable[Diagnostic]) -> None:
         """Add the findings of another collection."""
@@ -223,13 +248,17 @@ class Diagnostics:
 
     @property
     def warnings(self) -> list[str]:
-        """Warnings as printed."""
-        return [str(f) for f in self.findings if f.severity == "warning"]
+        """Warnings, a sentence each; `findings` has their IDs."""
+        return [f.sentence() for f in self.findings if f.severity == "warning"]
 
     @property
     def errors(self) -> list[str]:
-        """Errors as printed."""
-        return [str(f) for f in self.findings if f.severity == "error"]
+        """Errors, a sentence each; `findings` has their IDs."""
+        return [f.sentence() for f in self.findings if f.severity == "error"]
+
+    def printed_warnings(self) -> list[str]:
+        """Return the warnings as printed, with their IDs."""
+        return [str(finding) for finding in self.findings if finding.severity == "warning"]
 
     def worst_first(self) -> list[str]:
         """Return errors, then warnings, then notes as printed; a message on many lines of a file occurs once."""

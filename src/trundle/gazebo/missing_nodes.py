@@ -52,8 +52,8 @@ def report_missing_node(node: LaunchNode, why: str, report: Diagnostics, *, is_r
     """
     message = f"node {node.full_name}: {why}"
     if is_required:
-        raise DescriptionError(node.at, f"{message}; the launch requires it")
-    report.warn(node.at, f"{message}; the launch goes on without it")
+        raise DescriptionError(node.at, f"{message}; the launch requires it", "missing-node")
+    report.warn(node.at, f"{message}; the launch goes on without it", "missing-node")
 
 
 def is_local(address: str, env: Mapping[str, str]) -> bool:

@@ -81,7 +81,7 @@ def _load_visual_plugins(
         for (visual, tag), (_, node_name) in zip(tags, named_tags, strict=True):
             if is_cosmetic(tag):
                 message = f"plugin {tag.name!r}: {tag.filename} alters only how Gazebo draws a visual; it is not run"
-                report.info(tag.at, message)
+                report.info(tag.at, message, "cosmetic-plugin")
                 continue
 
             def load(
@@ -119,7 +119,11 @@ def load_world_plugins(
             _add_hooks(simulation, plugin, None, tag.name)
     if any(world.wind) and not any(tag.filename.endswith("libWindPlugin.so") for tag in world.plugins):
         report = simulation.report
-        report.info(world.at, "there is no wind force: as in Gazebo, it needs libWindPlugin.so in the world")
+        report.info(
+            world.at,
+            "there is no wind force: as in Gazebo, it needs libWindPlugin.so in the world",
+            "wind-without-plugin",
+        )
 
 
 _Sensor = TypeVar("_Sensor", "CameraSensor", "InstrumentSensor")
@@ -150,7 +154,7 @@ def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", simulation: 
                 }
                 attached_count += 1
             except TrundleError as error:
-                report.warn_error(error, tag.at, _FALLBACK, subject=_sensor_plugin(sensor.name, tag))
+                report.warn_error(error, tag.at, _FALLBACK, "plugin-failed", subject=_sensor_plugin(sensor.name, tag))
         if not attached_count:
             silent.append(sensor)
     return silent
@@ -173,7 +177,7 @@ def report_missing_plugins(world: World, environment: Mapping[str, str], report:
 
 
 def _warn_unsupported(sensor: str, tag: PluginTag, report: Diagnostics) -> None:
-    report.warn(tag.at, f"{_sensor_plugin(sensor, tag)} is not supported yet; {_FALLBACK}")
+    report.warn(tag.at, f"{_sensor_plugin(sensor, tag)} is not supported yet; {_FALLBACK}", "sensor-plugin")
 
 
 def _sensor_plugin(sensor: str, tag: PluginTag) -> str:
@@ -195,9 +199,11 @@ def _load_or_warn(tag: PluginTag, load: Callable[[], _Kind], report: Diagnostics
         return load()
     except TrundleError as error:
         subject = "" if isinstance(error, DescriptionError) else f"plugin {tag.name!r}"
-        report.warn_error(error, tag.at, "the run goes on without it", subject=subject)
+        report.warn_error(error, tag.at, "the run goes on without it", "plugin-failed", subject=subject)
     except Exception as error:  # user code may raise anything
-        report.warn(tag.at, f"plugin {tag.name!r}: {type(error).__name__}: {error}; the run goes on without it")
+        report.warn(
+            tag.at, f"plugin {tag.name!r}: {type(error).__name__}: {error}; the run goes on without it", "plugin-failed"
+        )
     return None
 
 

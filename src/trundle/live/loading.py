@@ -73,5 +73,6 @@ class _PrintedDiagnostics(Diagnostics):
         count = len(self.findings)
         super()._add(finding)
         if len(self.findings) > count and finding.severity == "warning":
-            text, (file, line) = self.findings[-1].what, finding.at
+            last, (file, line) = self.findings[-1], finding.at
+            text = f"{last.what} [{last.id}]" if last.id else last.what
             warnings.warn_explicit(text, TrundleWarning, file, line or 1, module="trundle")

@@ -33,7 +33,9 @@ def read_piped(file: str) -> Piped | None:
     try:
         return Piped(name, read_standard_input() if is_standard else read_stream(file))
     except OSError as error:
-        raise DescriptionError(Source(name if is_standard else file), f"cannot be read: {error.strerror}") from None
+        raise DescriptionError(
+            Source(name if is_standard else file), f"cannot be read: {error.strerror}", "unreadable-file"
+        ) from None
 
 
 def report_workspace(file: str, packages: Packages, log: Callable[[str], None]) -> None:
@@ -64,5 +66,5 @@ def load_input(
     piped = piped or read_piped(file)
     if piped is not None:
         return load_text(piped.data, name=piped.name, folder=start, packages=packages, report=report)
-    report_workspace(file, packages, lambda message: report.info(Source(file), message))
+    report_workspace(file, packages, lambda message: report.info(Source(file), message, "workspace"))
     return load(file, report, packages=packages)

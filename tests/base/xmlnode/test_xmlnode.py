@@ -95,7 +95,9 @@ def test_invalid_documents_are_reported_in_one_line(text: str, sentence: str) ->
 def test_no_message_is_libxml2s(text: str) -> None:
     with pytest.raises(etree.XMLSyntaxError) as original:
         etree.fromstring(text.encode())
-    with pytest.raises(DescriptionError, match=r": error: not well-formed XML: .{8,} \(column \d+\)$") as error:
+    with pytest.raises(
+        DescriptionError, match=r": error: not well-formed XML: .{8,} \(column \d+\) \[malformed-xml\]$"
+    ) as error:
         parse_xml(text, name="x.xml")
 
     assert (original.value.msg or "").partition(", line")[0] not in error.value.what

@@ -66,7 +66,7 @@ def test_a_missing_plugin_built_by_a_package_names_its_source(tmp_path: Path) ->
     source, _, command = str(error.value).partition("; it is C++ that ")[2].partition(" in place of `trundle run`: ")
     assert source == f"{cmake}:2 builds from src/spin.cc; Gazebo itself, with it, in a container"
     assert command.startswith(f"docker run --rm -it --network host -v {tmp_path}:/ws/src/{tmp_path.name}:ro ")
-    assert command.endswith("catkin_make && . devel/setup.sh && rosrun gazebo_ros gzserver'")
+    assert command.endswith("catkin_make && . devel/setup.sh && rosrun gazebo_ros gzserver' [missing-plugin]")
     assert "ROS_MASTER_URI=http://here:1 " in command
     assert " ros-noetic-gazebo-ros " in command
 
@@ -77,7 +77,7 @@ def test_a_sensor_plugin_in_a_model_is_refused_with_its_element(tmp_path: Path) 
 
     assert str(error.value) == (
         f"{tmp_path}/model.sdf:7: error: plugin 'spin' (libgazebo_ros_laser.so) is a sensor's; "
-        "it belongs into a <sensor>"
+        "it belongs into a <sensor> [misplaced-plugin]"
     )
 
 

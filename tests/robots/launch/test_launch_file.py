@@ -19,9 +19,9 @@ def read(file: Path, text: str) -> LaunchPlan:
 @pytest.mark.parametrize(("name", "language"), [("a.launch.py", "in Python"), ("a.launch.yaml", "in YAML")])
 def test_launch_files_in_python_or_yaml_are_reported_as_ros_2(tmp_path: Path, name: str, language: str) -> None:
     pattern = f"{name}: error: a launch file {language} is one of ROS 2; only ROS 1 launch files are supported"
-    with pytest.raises(DescriptionError, match=f"{re.escape(pattern)}$"):
+    with pytest.raises(DescriptionError, match=rf"{re.escape(pattern)} \[ros2-file\]$"):
         read(tmp_path / name, "def generate_launch_description(): ...")
-    with pytest.raises(DescriptionError, match=f"{re.escape(pattern)}; included at .*top.launch:1$"):
+    with pytest.raises(DescriptionError, match=f"{re.escape(pattern)}; included at .*top.launch:1 \\[ros2-file\\]$"):
         read(tmp_path / "top.launch", f'<launch><include file="$(dirname)/{name}"/></launch>')
 
 
@@ -38,7 +38,7 @@ def test_xml_of_ros_2_is_named(tmp_path: Path, body: str, shown: str) -> None:
     pattern = (
         rf"a.launch.xml:1: error: {re.escape(shown)}: this is a launch file of ROS 2; only ROS 1 launch files are "
     )
-    pattern += "supported$"
+    pattern += r"supported \[ros2-file\]$"
     with pytest.raises(DescriptionError, match=pattern):
         read(tmp_path / "a.launch.xml", f"<launch>{body}</launch>")
 
@@ -50,7 +50,9 @@ def test_commands_that_take_no_launch_file_print_the_same_error(
     file = tmp_path / name
     file.write_text("launch: []")
     language = "in Python" if file.suffix == ".py" else "in YAML"
-    message = f"{file}: error: a launch file {language} is one of ROS 2; only ROS 1 launch files are supported\n"
+    message = (
+        f"{file}: error: a launch file {language} is one of ROS 2; only ROS 1 launch files are supported [ros2-file]\n"
+    )
     for command in (
         ["run", str(file), "--headless"],
         ["render", str(file), "-o", str(tmp_path / "a.png")],

@@ -372,11 +372,11 @@ def test_missing_packages_are_named_together(tmp_path: Path) -> None:
         )
     sub, top = tmp_path / "sub.launch", tmp_path / "top.launch"
     assert str(caught.value).splitlines() == [
-        f"{sub}:1: error: no package 'one'; included at {top}:1",
-        f"{sub}:2: error: no package 'two'",
+        f"{sub}:1: error: no package 'one'; included at {top}:1 [missing-package]",
+        f"{sub}:2: error: no package 'two' [missing-package]",
         f"{top}:2: error: no package 'turtlebot3_gazebo' for the node /s/n; it is published at "
-        "https://github.com/ROBOTIS-GIT/turtlebot3_simulations",
-        f"{top}:3: error: no package 'three'",
+        "https://github.com/ROBOTIS-GIT/turtlebot3_simulations [missing-package]",
+        f"{top}:3: error: no package 'three' [missing-package]",
     ]
     assert [error.at.line for error in caught.value.more] == [2, 2, 3]
 

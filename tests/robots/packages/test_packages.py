@@ -356,7 +356,7 @@ def test_a_files_own_workspace_wins_over_a_package_of_the_same_name_on_the_path(
     printed = capsys.readouterr()
     assert "/from: new" in printed.out
     message = f"of two packages 'arm' the file's own workspace wins: {new / 'arm'}, not {old / 'arm'}"
-    assert f"{new}/arm/launch/go.launch: warning: {message}" in printed.err.splitlines()
+    assert f"{new}/arm/launch/go.launch: warning: {message} [shadowed-package]" in printed.err.splitlines()
 
     assert main(["launch", "arm", "go.launch", "--dump-params"]) == 0
     printed = capsys.readouterr()

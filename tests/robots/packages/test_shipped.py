@@ -252,7 +252,9 @@ def test_every_stock_package_with_a_stand_in_can_be_found_where_none_is_installe
     assert node.arguments.endswith("/rviz/default.rviz")
 
     launch.write_text('<launch>\n<rosparam file="$(find joint_state_publisher)/a.yaml"/></launch>')
-    with pytest.raises(DescriptionError, match=r"show\.launch:2: error: .*; its stand-in has no a\.yaml$"):
+    with pytest.raises(
+        DescriptionError, match=r"show\.launch:2: error: .*; its stand-in has no a\.yaml \[missing-package\]$"
+    ):
         read_launch(launch, packages=packages, report=Diagnostics(), arguments={}, env={})
 
 

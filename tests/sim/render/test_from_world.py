@@ -160,7 +160,7 @@ def test_a_missing_texture_is_reported(tmp_path: Path) -> None:
     scene_from_world(world(visual(geometry=MeshFile(path=tmp_path / "car.obj", uri="car.obj"))), report)
     (finding,) = report.findings
     assert str(finding).endswith(
-        "car.obj: info: its texture 'paint.png' is not in the model's folder; a plain color is drawn"
+        "car.obj: info: its texture 'paint.png' is not in the model's folder; a plain color is drawn [texture]"
     )
 
 

@@ -47,6 +47,12 @@ def _call_master(method: str) -> Any:
     return MasterProxy(caller_id="/completion", timeout_s=_TIMEOUT_S).call(method)
 
 
+def _findings() -> Iterable[str]:
+    from trundle.base.explanations import explanations
+
+    return explanations()
+
+
 def _topics() -> set[str]:
     return _state(0) | _state(1)
 
@@ -175,6 +181,7 @@ def _rule_files(prefix: str, **_: Any) -> list[str]:
 
 _SOURCES: dict[tuple[str, str], Callable[[], Iterable[str]]] = {
     ("", "topic"): _topics,
+    ("explain", "id"): _findings,
     ("", "topics"): _topics,
     ("plot", "fields"): _topics,
     ("", "node"): _nodes,

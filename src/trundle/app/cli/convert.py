@@ -39,7 +39,7 @@ def main(args: argparse.Namespace) -> int:
         raise UsageError("a GLB is binary, and standard output is a terminal; name a file with -o")
     report = Diagnostics(strict=args.strict)
     content = convert(args.file, args.to, dict(os.environ), report, start=Path.cwd(), output=args.output)
-    for warning in report.warnings:
+    for warning in report.printed_warnings():
         print(warning, file=sys.stderr)
     if args.output is None and isinstance(content, bytes):
         sys.stdout.buffer.write(content)

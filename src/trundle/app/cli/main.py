@@ -35,6 +35,7 @@ COMMANDS: dict[str, str] = {
     "view": "show a running ROS graph in the browser, as rviz does",
     "page": "print the links of the pages that run",
     "check": "list errors and unsupported elements of a file",
+    "explain": "explain a finding by its ID, with an example and what to do",
     "convert": "convert a robot or world to SDF, URDF, MJCF or GLB, a recorded run to HTML",
     "render": "render an image or a video of a robot or a world",
     "sweep": "run a world or a launch file many times with different values",
@@ -176,7 +177,8 @@ def _run(name: str, arguments: Sequence[str], *, program: str) -> int:
     except SystemExit as system_exit:  # argparse raises it: with 0 after --help, with 2 for wrong usage
         return int(system_exit.code or 0)
     except TrundleError as error:
-        message = str(error) if _has_location(str(error)) else f"{program}: error: {error}"
+        named = f"{error} [{error.id}]" if error.id else str(error)
+        message = str(error) if _has_location(str(error)) else f"{program}: error: {named}"
         print(colored(message, sys.stderr), file=sys.stderr)
         if error.missing_packages and name != "pack":
             from .fetching import offer

@@ -57,7 +57,7 @@ def main(args: argparse.Namespace) -> int:
     try:
         renderer = PictureRenderer(args.file, dict(os.environ), report, start=Path.cwd(), options=options)
     finally:
-        for warning in report.warnings:
+        for warning in report.printed_warnings():
             print(warning, file=sys.stderr)
     if renderer.empty_reason:
         print(f"{args.file}: {renderer.empty_reason}", file=sys.stderr)

@@ -74,7 +74,7 @@ def main(args: argparse.Namespace) -> int:
             at, message = (
                 (error.at, error.what) if isinstance(error, DescriptionError) else (Source(args.file), str(error))
             )
-            refusal = {"models": [], "diagnostics": [Diagnostic("error", at, message).as_json()]}
+            refusal = {"models": [], "diagnostics": [Diagnostic("error", at, message, error.id).as_json()]}
             print(json.dumps(refusal))
         raise
     if args.json:

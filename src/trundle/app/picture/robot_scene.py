@@ -48,7 +48,7 @@ def _texture_color(shape: RobotShape, packages: Packages, report: Diagnostics) -
     try:
         image = packages.resolve(shape.texture, folder=Path(shape.at.file).parent, at=shape.at)
     except TrundleError as error:
-        report.warn_error(error, shape.at, "the texture is left out")
+        report.warn_error(error, shape.at, "the texture is left out", "texture")
         return None
     return mean_color(image)
 
@@ -65,6 +65,6 @@ def _geometry(shape: RobotShape, packages: Packages, report: Diagnostics) -> Sha
             try:
                 mesh = load_mesh(packages.resolve(uri, folder=Path(shape.at.file).parent, at=shape.at))
             except TrundleError as error:
-                report.warn_error(error, shape.at, "this shape is not drawn")
+                report.warn_error(error, shape.at, "this shape is not drawn", "mesh")
                 return None
             return mesh.scaled(scale)

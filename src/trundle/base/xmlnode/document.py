@@ -38,7 +38,7 @@ class XmlDocument:
             tolerated = rewrite_as_xml(data)
             root = None if tolerated is None else etree.fromstring(tolerated, _parser(recover=True))
             if root is None:
-                raise DescriptionError(Source(name), f"not well-formed XML: {error}") from None
+                raise DescriptionError(Source(name), f"not well-formed XML: {error}", "malformed-xml") from None
         self.root = XmlElement(root)
         """Root element."""
 
@@ -52,7 +52,7 @@ class XmlDocument:
         try:
             return cls(read_file(path, max_bytes=64 * 1024 * 1024), name=str(path))
         except OSError as error:
-            raise DescriptionError(Source(str(path)), f"cannot be read: {error.strerror}") from None
+            raise DescriptionError(Source(str(path)), f"cannot be read: {error.strerror}", "unreadable-file") from None
 
     def line(self, element: "XmlElement") -> int | None:
         """Return the line of an element as it was parsed."""

@@ -138,7 +138,7 @@ class XmlNode:
         """
         value = self.attribute(name)
         if not value:
-            raise DescriptionError(self.at, f"<{self.tag}> needs the attribute {name!r}")
+            raise DescriptionError(self.at, f"<{self.tag}> needs the attribute {name!r}", "missing-attribute")
         return value
 
     def string(self, tag: str, *, default: str = "") -> str:
@@ -190,7 +190,9 @@ class XmlNode:
             return False
         # libsdformat before 15 reads every other text as false.
         self.report.warn(
-            self.at, f"<{self.tag}>: {self.text!r} is neither true nor false; read as {str(default).lower()}"
+            self.at,
+            f"<{self.tag}>: {self.text!r} is neither true nor false; read as {str(default).lower()}",
+            "invalid-value",
         )
         return default
 
@@ -201,14 +203,16 @@ class XmlNode:
         values = parse_numbers(self.text)
         if values is None or len(values) != count:
             expected = "one number" if count == 1 else f"{count} numbers"
-            self.report.warn(self.at, f"<{self.tag}> needs {expected}, got {shorten(self.text)}; {fallback}")
+            self.report.warn(
+                self.at, f"<{self.tag}> needs {expected}, got {shorten(self.text)}; {fallback}", "invalid-value"
+            )
             return None
         if not all(map(math.isfinite, values)):
-            self.report.warn(self.at, f"<{self.tag}>: {shorten(self.text)} is not finite; {fallback}")
+            self.report.warn(self.at, f"<{self.tag}>: {shorten(self.text)} is not finite; {fallback}", "invalid-value")
             return None
         if not is_within(values, limit):
             problem = f"{shorten(self.text)} is not within ±{limit:g}"
-            self.report.warn(self.at, f"<{self.tag}>: {problem}; {fallback}")
+            self.report.warn(self.at, f"<{self.tag}>: {problem}; {fallback}", "out-of-range")
             return None
         return values
 
@@ -266,7 +270,9 @@ class XmlNode:
             try:
                 self._element.set(name, value)
             except ValueError:  # lxml refuses names that XML does not allow
-                self.report.warn(other.at, f"attribute {name!r} has an undeclared prefix; it is left out")
+                self.report.warn(
+                    other.at, f"attribute {name!r} has an undeclared prefix; it is left out", "undeclared-prefix"
+                )
 
     def drop_attributes(self, *names: str) -> None:
         """Remove attributes."""
@@ -299,14 +305,20 @@ class XmlNode:
             is_second = child.tag in seen and child.tag in self._read_once and child.text != _PLACEHOLDER
             if is_second and child.tag not in reported:
                 reported.add(child.tag)
-                report.warn(child.at, f"a second <{child.tag}> in <{self.tag}>; the first one is used")
+                report.warn(
+                    child.at, f"a second <{child.tag}> in <{self.tag}>; the first one is used", "duplicate-element"
+                )
             seen.add(child.tag)
         for child in self.unread():
             if child.tag not in reported:
                 reported.add(child.tag)
-                report.warn(child.at, f"<{child.tag}> in <{self.tag}> is not supported; it is ignored")
+                report.warn(
+                    child.at, f"<{child.tag}> in <{self.tag}> is not supported; it is ignored", "unsupported-element"
+                )
         for name in sorted(set(map(str, self._element.attrib)) - self._read_attributes):
-            report.warn(self.at, f"attribute {name!r} of <{self.tag}> is not supported; it is ignored")
+            report.warn(
+                self.at, f"attribute {name!r} of <{self.tag}> is not supported; it is ignored", "unsupported-attribute"
+            )
 
 
 def _written_tag(element: etree._Element) -> str:  # pyright: ignore[reportPrivateUsage]

@@ -39,14 +39,14 @@ def parse_xml(
     """
     data = text.encode(errors="surrogatepass") if isinstance(text, str) else text  # JSON can hold lone surrogates
     if len(data) > _MAX_BYTES:
-        raise DescriptionError(Source(name), f"{len(data)} bytes; the largest file read is {_MAX_BYTES}")
+        raise DescriptionError(Source(name), f"{len(data)} bytes; the largest file read is {_MAX_BYTES}", "too-large")
     if not data.strip():
-        raise DescriptionError(Source(name, 1), "the file is empty")
+        raise DescriptionError(Source(name, 1), "the file is empty", "empty-file")
     if report is not None and not _is_declared_or_unicode(data):
-        report.warn(Source(name, 1), "not UTF-8, and no encoding is declared; read as Latin-1")
+        report.warn(Source(name, 1), "not UTF-8, and no encoding is declared; read as Latin-1", "xml-encoding")
         data = data.decode("latin-1").encode()
     if report is not None and data.startswith(_UTF_16):
-        report.warn(Source(name, 1), "UTF-16 text, which Gazebo and urdfdom refuse; save it as UTF-8")
+        report.warn(Source(name, 1), "UTF-16 text, which Gazebo and urdfdom refuse; save it as UTF-8", "xml-encoding")
     parser = _parser()
     document = data.lstrip()  # Gazebo and ROS accept leading blank lines, which tutorials and templates have
     before = data[: len(data) - len(document)]
@@ -59,15 +59,15 @@ def parse_xml(
             root = _deep(document, max_depth)
             if root is None:
                 raise DescriptionError(
-                    at, f"elements nested more than {max_depth} deep, or exponential expansion of entities"
+                    at, f"elements nested more than {max_depth} deep, or exponential expansion of entities", "too-large"
                 ) from None
         else:
             root = None if report is None else _recovered(document)
             if root is None or report is None:
-                raise DescriptionError(at, message) from None
-            report.warn(at, f"{message}; read as Gazebo reads it")
+                raise DescriptionError(at, message, "malformed-xml") from None
+            report.warn(at, f"{message}; read as Gazebo reads it", "malformed-xml")
     except ValueError as error:  # "Unicode strings with encoding declaration": only bytes come here
-        raise DescriptionError(Source(name, 1), f"not readable as XML: {error}") from None
+        raise DescriptionError(Source(name, 1), f"not readable as XML: {error}", "malformed-xml") from None
     node = XmlNode(root, file=name, report=report or Diagnostics(), first_line=before.count(b"\n"))
     node.is_declared_late = bool(before) and document.startswith(b"<?xml")
     return node
@@ -166,9 +166,9 @@ def read_xml(
     try:
         data = read_file(path, max_bytes=_MAX_BYTES)
     except FileNotFoundError:
-        raise DescriptionError(Source(str(path)), "no such file") from None
+        raise DescriptionError(Source(str(path)), "no such file", "missing-file") from None
     except OSError as error:
-        raise DescriptionError(Source(str(path)), f"cannot be read: {error.strerror}") from None
+        raise DescriptionError(Source(str(path)), f"cannot be read: {error.strerror}", "unreadable-file") from None
     if budget is None:
         return parse_xml(data, name=str(path), report=report, max_depth=max_depth)
     at = at or Source(str(path))

@@ -24,6 +24,8 @@ _MAX_LISTED = 8
 class ReadBudgetError(DescriptionError):
     """Exhausted budget; it ends reading."""
 
+    id = "too-large"
+
     def through(self, files: Iterable[str]) -> "ReadBudgetError":
         """Return the error with the chain of including files, outermost first."""
         names = [*dict.fromkeys(files)]

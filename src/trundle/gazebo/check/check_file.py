@@ -102,7 +102,7 @@ def check(file: str, environment: Mapping[str, str], *, start: Path, collisions:
     except DescriptionError as error:
         report.error(error)
     except UsageError as error:
-        report.error(DescriptionError(Source(file), str(error)))
+        report.error(DescriptionError(Source(file), str(error), error.id))
     return CheckResult(file=file, findings=findings, report=report)
 
 

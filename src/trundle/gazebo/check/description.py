@@ -108,7 +108,9 @@ def _report_silent_sensors(flat: World, report: Diagnostics) -> None:
 
     for sensor in sensors:
         if sensor.type not in SIMULATED_CAMERAS:
-            report.warn(sensor.at, f"sensor {sensor.name!r}: {sensor.type} sensors are not simulated yet")
+            report.warn(
+                sensor.at, f"sensor {sensor.name!r}: {sensor.type} sensors are not simulated yet", "unsupported-sensor"
+            )
 
 
 def _report_ros_names(flat: World, report: Diagnostics) -> None:
@@ -118,7 +120,9 @@ def _report_ros_names(flat: World, report: Diagnostics) -> None:
             continue
         for name, at in _names_of(model):
             if not is_legal_base_name(name.replace("::", "_")):
-                report.info(at, f"{name!r} is not a legal ROS name; on the graph and in tf it is {ros_name(name)!r}")
+                report.info(
+                    at, f"{name!r} is not a legal ROS name; on the graph and in tf it is {ros_name(name)!r}", "ros-name"
+                )
 
 
 def _names_of(model: Model) -> Iterator[tuple[str, Source]]:

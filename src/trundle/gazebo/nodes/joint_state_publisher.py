@@ -87,7 +87,9 @@ class JointSet:
             limits = (-math.pi, math.pi) if kind == "continuous" else _limits(joint)
             if limits is None:
                 report.warn(
-                    joint.at, f"joint {name!r} is neither fixed nor continuous, but has no limits; it is ignored"
+                    joint.at,
+                    f"joint {name!r} is neither fixed nor continuous, but has no limits; it is ignored",
+                    "missing-limit",
                 )
                 continue
             self.names.append(name)
@@ -235,7 +237,7 @@ class JointStatePublisher:
         root = parse_xml(options.text("robot_description"), name=name)
         robot = root.find("robot") or root  # the original's tests nest <robot> in <urdf>, too
         if robot.tag != "robot":
-            raise DescriptionError(robot.at, f"a URDF starts with <robot>, not <{robot.tag}>")
+            raise DescriptionError(robot.at, f"a URDF starts with <robot>, not <{robot.tag}>", "wrong-root")
         return robot
 
 

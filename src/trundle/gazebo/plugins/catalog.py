@@ -246,9 +246,10 @@ def _python_file(tag: PluginTag, environment: Mapping[str, str]) -> Path:
         raise DescriptionError(
             tag.at,
             f"plugin {tag.name!r}: {filename} is ROS 2's; ROS 1's is libgazebo_ros_control.so, with <transmission>",
+            "ros2-plugin",
         )
     searched = f"looked for {python_file_name(filename)} in {', '.join(map(str, folders))}"
-    raise DescriptionError(tag.at, f"{missing}: {searched}{_compiled_hint(tag, environment)}")
+    raise DescriptionError(tag.at, f"{missing}: {searched}{_compiled_hint(tag, environment)}", "missing-plugin")
 
 
 def _compiled_hint(tag: PluginTag, environment: Mapping[str, str]) -> str:
@@ -265,7 +266,7 @@ def _check_kind(plugin_class: type[Hooks], kind: type[_Kind], tag: PluginTag) ->
 
 def _misplaced(tag: PluginTag, owner: str) -> DescriptionError:
     message = f"plugin {tag.name!r} ({tag.filename}) is a {owner}'s; it belongs into a <{owner}>"
-    return DescriptionError(tag.at, message)
+    return DescriptionError(tag.at, message, "misplaced-plugin")
 
 
 def python_file_name(filename: str) -> str:
@@ -299,7 +300,9 @@ def _load_file(path: Path, kind: type[_Kind]) -> type[_Kind]:
         spec.loader.exec_module(module)
     except Exception as error:
         del sys.modules[name]
-        raise DescriptionError(_error_source(path, error), f"plugin not loaded: {describe(error)}") from error
+        raise DescriptionError(
+            _error_source(path, error), f"plugin not loaded: {describe(error)}", "plugin-file"
+        ) from error
     classes = [
         value
         for value in vars(module).values()
@@ -308,7 +311,7 @@ def _load_file(path: Path, kind: type[_Kind]) -> type[_Kind]:
     if len(classes) != 1:
         names = ", ".join(repr(c.__name__) for c in classes) or "none"
         raise DescriptionError(
-            Source(str(path)), f"a plugin file defines one subclass of {kind.__name__}; here: {names}"
+            Source(str(path)), f"a plugin file defines one subclass of {kind.__name__}; here: {names}", "plugin-file"
         )
     return classes[0]
 

@@ -135,7 +135,7 @@ class _Child:
                 return 0, f"ERROR: {error}", [[], []]
             self._running.append(running)
             self._launches.push(opened.pop_all())
-        for warning in loaded.report.warnings:
+        for warning in loaded.report.printed_warnings():
             self._parent.log(warning, error=True)
         self._parent.log("... done launching nodes")
         names = [[_process_name(n) for n in running.launched if (n.job is not None) is runs] for runs in (True, False)]

@@ -74,7 +74,7 @@ def with_all_missing(
             other for other in _errors(request, environment) if other.missing_packages[0] not in error.missing_packages
         ]
         names = (*error.missing_packages, *(name for other in others for name in other.missing_packages))
-        return DescriptionError(error.at, error.what, more=[*error.more, *others], missing_packages=names)
+        return DescriptionError(error.at, error.what, error.id, more=[*error.more, *others], missing_packages=names)
     return error
 
 
@@ -105,7 +105,9 @@ def _errors(request: LaunchRequest, environment: Mapping[str, str]) -> list[Desc
         reported = (finding.at for finding in report.findings if f"no package {name!r}" in finding.what)
         sources[name] = next(reported, None) or sources.get(name) or Source(str(start))
     return [
-        DescriptionError(sources[name], f"no package {name!r}{repository_hint(name)}", missing_packages=(name,))
+        DescriptionError(
+            sources[name], f"no package {name!r}{repository_hint(name)}", "missing-package", missing_packages=(name,)
+        )
         for name in packages.missing
     ]
 

@@ -112,7 +112,7 @@ class NodeStarter:
         extra_arguments: tuple[str, ...],
     ) -> LaunchedNode:
         if fault := script_fault(path):
-            self.report.warn(node.at, f"node {node.full_name}: {path} {fault}")
+            self.report.warn(node.at, f"node {node.full_name}: {path} {fault}", "node-program")
         prefix = read_prefix(_split(node.launch_prefix, node), env)
         output: Literal["screen", "log"] | TerminalOutput | None = None
         fault = prefix.fault
@@ -160,7 +160,9 @@ class NodeStarter:
         )
 
     def _warn_of_prefix(self, node: LaunchNode, problem: str) -> None:
-        self.report.warn(node.at, f"node {node.full_name}: launch-prefix {node.launch_prefix!r} {problem}")
+        self.report.warn(
+            node.at, f"node {node.full_name}: launch-prefix {node.launch_prefix!r} {problem}", "launch-prefix"
+        )
 
     def _missing(self, node: LaunchNode, reason: str) -> LaunchedNode:
         report_missing_node(node, reason, self.report, is_required=self.policy(node).required)
@@ -235,7 +237,7 @@ def _split(text: str, node: LaunchNode) -> list[str]:
         return shlex.split(text)
     except ValueError as error:
         raise DescriptionError(
-            node.at, f"node {node.full_name}: {text!r} cannot be split into words: {error}"
+            node.at, f"node {node.full_name}: {text!r} cannot be split into words: {error}", "launch-words"
         ) from None
 
 

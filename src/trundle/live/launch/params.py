@@ -26,7 +26,7 @@ async def set_params(node: Node, plan: LaunchPlan, params: Sequence[LaunchParam]
         try:
             write_atomically(Path(step.file), yaml.safe_dump(await node.params.get(step.name, {})))
         except UsageError as error:
-            raise DescriptionError(step.at, f"rosparam dump: {error}") from None
+            raise DescriptionError(step.at, f"rosparam dump: {error}", "rosparam") from None
     for namespace in plan.clear_params:
         if await node.params.has(namespace):
             await node.params.delete(namespace)
@@ -36,4 +36,4 @@ async def set_params(node: Node, plan: LaunchPlan, params: Sequence[LaunchParam]
         try:
             await node.params.set(param.name, param.value)
         except ParameterError as error:
-            raise DescriptionError(param.at, str(error)) from None
+            raise DescriptionError(param.at, str(error), "launch-param") from None

@@ -138,7 +138,7 @@ def _read(
     nodes = tuple(node for node in plan.nodes if node.address is not None)
     if len(nodes) < len(plan.nodes) and not packages.is_lenient:
         node = next(node for node in plan.nodes if node.address is None)
-        raise DescriptionError(node.at, f"node {node.name!r}: there is no machine {node.machine!r}")
+        raise DescriptionError(node.at, f"node {node.name!r}: there is no machine {node.machine!r}", "unknown-machine")
     plan = replace(plan, nodes=nodes)  # --lenient may have left the machine out
     return LoadedLaunch(plan=plan, params=params, packages=packages, start=start, env=env, report=report, show=show)
 

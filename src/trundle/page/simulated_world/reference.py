@@ -143,7 +143,7 @@ def read_recording(file: Path, title: str) -> StateLog:
     try:
         log = read_state_log(file)
     except DescriptionError as error:
-        raise DescriptionError(Source(title, error.at.line), error.what) from None
+        raise DescriptionError(Source(title, error.at.line), error.what, error.id) from None
     if len(log.times_s) == 0:
         raise DescriptionError(Source(title), "nothing was recorded")
     return log

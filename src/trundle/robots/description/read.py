@@ -78,7 +78,7 @@ def _load(
     is_xacro = "xmlns:xacro" in text
     if arguments and not is_xacro:
         message = f"not a xacro file, it has no arguments: {', '.join(arguments)}"
-        raise UnknownArgumentError(Source(str(path)), message, name=next(iter(arguments)))
+        raise UnknownArgumentError(Source(str(path)), message, "unknown-argument", name=next(iter(arguments)))
     if root.tag == "robot":
         if is_xacro:
             text = _expanded(path, packages, report, arguments=arguments)
@@ -93,7 +93,7 @@ def _load_stream(path: Path, report: Diagnostics, *, packages: Packages, seed: i
     try:
         data = read_stream(path)
     except OSError as error:
-        raise DescriptionError(Source(str(path)), f"cannot be read: {error.strerror}") from None
+        raise DescriptionError(Source(str(path)), f"cannot be read: {error.strerror}", "unreadable-file") from None
     return load_text(data, name=name, folder=Path.cwd(), packages=packages, report=report, seed=seed)
 
 
@@ -141,23 +141,35 @@ def load_sdf(
 
     if root.tag == "launch":
         refuse_ros2(root)
-        raise DescriptionError(root.at, "a launch file, not a robot or a world; `trundle launch` starts it")
+        raise DescriptionError(
+            root.at, "a launch file, not a robot or a world; `trundle launch` starts it", "wrong-root"
+        )
     if root.tag == "gazebo" and root.attribute("reference") is not None:
-        raise DescriptionError(root.at, "<gazebo reference=…> is a part of a URDF to include, not a robot")
+        raise DescriptionError(
+            root.at, "<gazebo reference=…> is a part of a URDF to include, not a robot", "wrong-root"
+        )
     if root.tag not in ("sdf", "gazebo"):
-        raise DescriptionError(root.at, f"<{root.tag}> starts neither an SDF (<sdf>) nor a URDF (<robot>)")
+        raise DescriptionError(
+            root.at, f"<{root.tag}> starts neither an SDF (<sdf>) nor a URDF (<robot>)", "wrong-root"
+        )
     version = read_version(root, report)
     if version < (1, 2):
-        report.info(root.at, f"SDF {version}: values written as attributes are read as the elements of SDF 1.2")
+        report.info(
+            root.at, f"SDF {version}: values written as attributes are read as the elements of SDF 1.2", "old-sdf"
+        )
         rewrite_old_style(root)
     if root.tag == "gazebo":
-        report.warn(root.at, "<gazebo> was the root element until SDF 1.2; Gazebo refuses the file: it needs <sdf>")
+        report.warn(
+            root.at, "<gazebo> was the root element until SDF 1.2; Gazebo refuses the file: it needs <sdf>", "old-sdf"
+        )
     name_missing_attributes(root, version, report)
 
     def read_urdf(file: Path, robot: XmlNode) -> Model:
         text = read_text(file)
         if _XACRO in text:
-            raise DescriptionError(robot.at, "a xacro file cannot be included; `trundle xacro` expands it")
+            raise DescriptionError(
+                robot.at, "a xacro file cannot be included; `trundle xacro` expands it", "xacro-include"
+            )
         (model,) = load_urdf(text, str(file), file, packages, report).world.models
         return model
 
@@ -222,4 +234,4 @@ def _find(source: str, packages: Packages) -> Path:
     if path.suffix == ".world":
         hint = f"; worlds that come with Trundle: {bundled}; others are searched along GAZEBO_RESOURCE_PATH"
     suggestion = similar_file(str(path)) or did_you_mean(source, packages.worlds())
-    raise DescriptionError(Source(source), f"no such file or folder{suggestion}{hint}")
+    raise DescriptionError(Source(source), f"no such file or folder{suggestion}{hint}", "missing-file")

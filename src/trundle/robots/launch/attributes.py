@@ -27,19 +27,23 @@ class Attributes:
         if self.is_active:
             for name in node.attributes():
                 if name not in known and name not in ("if", "unless"):
-                    report.warn(self.at, f"attribute {name!r} of <{node.tag}> is not known; it is ignored")
+                    report.warn(
+                        self.at,
+                        f"attribute {name!r} of <{node.tag}> is not known; it is ignored",
+                        "unsupported-attribute",
+                    )
 
     def _evaluate_if_unless(self) -> bool:
         condition, negated = self.text("if"), self.text("unless")
         if condition is not None and negated is not None:
-            raise DescriptionError(self.at, f"<{self.node.tag}>: either 'if' or 'unless', not both")
+            raise DescriptionError(self.at, f"<{self.node.tag}>: either 'if' or 'unless', not both", "launch-condition")
         try:
             if condition is not None:
                 return read_flag(condition)
             return negated is None or not read_flag(negated)
         except ValueError as error:
             raise DescriptionError(
-                self.at, f"<{self.node.tag}> {'unless' if condition is None else 'if'}: {error}"
+                self.at, f"<{self.node.tag}> {'unless' if condition is None else 'if'}: {error}", "launch-condition"
             ) from None
 
     def count_values(self, count: int) -> None:
@@ -84,7 +88,7 @@ class Attributes:
         """
         value = self.text(name)
         if value is None or not (value or empty):
-            raise DescriptionError(self.at, f"<{self.node.tag}> needs the attribute {name!r}")
+            raise DescriptionError(self.at, f"<{self.node.tag}> needs the attribute {name!r}", "missing-attribute")
         return value
 
     def flag(self, name: str) -> bool:
@@ -98,7 +102,9 @@ class Attributes:
             return False
         if value.lower() == "true":
             return True
-        raise DescriptionError(self.at, f"<{self.node.tag}> {name}: {value!r} is neither 'true' nor 'false'")
+        raise DescriptionError(
+            self.at, f"<{self.node.tag}> {name}: {value!r} is neither 'true' nor 'false'", "launch-value"
+        )
 
     def number(self, name: str, *, default: float) -> float:
         """Number, or `default` if absent."""
@@ -106,7 +112,9 @@ class Attributes:
         try:
             return default if value is None else float(value)
         except ValueError:
-            raise DescriptionError(self.at, f"<{self.node.tag}> {name}: {value!r} is not a number") from None
+            raise DescriptionError(
+                self.at, f"<{self.node.tag}> {name}: {value!r} is not a number", "launch-value"
+            ) from None
 
     def namespace(self) -> str | None:
         """Attribute `ns`, or None.
@@ -116,7 +124,11 @@ class Attributes:
         """
         value = self.text("ns")
         if value == "":
-            raise DescriptionError(self.at, f"<{self.node.tag}> has an empty 'ns'; leave it out to stay in this one")
+            raise DescriptionError(
+                self.at, f"<{self.node.tag}> has an empty 'ns'; leave it out to stay in this one", "launch-namespace"
+            )
         if value is not None and value.startswith("~"):
-            raise DescriptionError(self.at, f"<{self.node.tag}> ns {value!r}: a namespace cannot be private")
+            raise DescriptionError(
+                self.at, f"<{self.node.tag}> ns {value!r}: a namespace cannot be private", "launch-namespace"
+            )
         return value

@@ -34,7 +34,7 @@ class CommandLine:
                 hint = f"; the nearest is {suggestion!r}" if suggestion else ""
                 names = ", ".join(map(repr, sorted(known))) or "none"
                 message = f"no argument {name!r} to set{hint}; the file's arguments: {names}"
-                raise UnknownArgumentError(self._files[0].at, message, name=name)
+                raise UnknownArgumentError(self._files[0].at, message, "unknown-argument", name=name)
 
 
 def _used(texts: Iterable[str]) -> Iterator[str]:

@@ -62,9 +62,13 @@ def resolve_params(
             try:
                 value = convert_value(_output(value, expand_xacro, env, run), value.type)
             except ValueError as error:
-                raise DescriptionError(param.at, f"param {param.name!r}: {error}") from None
+                raise DescriptionError(param.at, f"param {param.name!r}: {error}", "param-command") from None
         if value is None:
-            report.warn(param.at, f"parameter {param.name!r} is null, which ROS parameters cannot be; it is not set")
+            report.warn(
+                param.at,
+                f"parameter {param.name!r} is null, which ROS parameters cannot be; it is not set",
+                "launch-param",
+            )
         resolved.append(replace(param, value=value))
     return tuple(resolved)
 

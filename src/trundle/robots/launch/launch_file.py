@@ -18,7 +18,11 @@ def read_launch_file(
     refuse_ros2_language(file, is_launch=True)
     root = read_xml(file, budget=budget, at=at)
     if root.is_declared_late:
-        report.warn(Source(str(file), 1), "blank lines before <?xml …?>, for which roslaunch refuses the file")
+        report.warn(
+            Source(str(file), 1),
+            "blank lines before <?xml …?>, for which roslaunch refuses the file",
+            "blank-lines-before-xml",
+        )
     refuse_ros2(root)
     return root
 

@@ -29,20 +29,24 @@ def read_machine(
     ]
     if removed:
         raise DescriptionError(
-            node.at, f"<machine> has no {removed[0]} since ROS Fuerte; an 'env-loader' sets what it set"
+            node.at,
+            f"<machine> has no {removed[0]} since ROS Fuerte; an 'env-loader' sets what it set",
+            "launch-machine",
         )
     name, address = attributes.required("name"), attributes.required("address")
     default = (attributes.text("default") or "false").lower()
     if default not in _DEFAULTS:
-        raise DescriptionError(node.at, f"machine {name!r}: default {default!r}; there are {', '.join(_DEFAULTS)}")
+        raise DescriptionError(
+            node.at, f"machine {name!r}: default {default!r}; there are {', '.join(_DEFAULTS)}", "launch-machine"
+        )
     port = attributes.text("ssh-port") or "22"
     if not port.strip().isdecimal():
-        raise DescriptionError(node.at, f"machine {name!r}: ssh-port {port!r} is not a whole number")
+        raise DescriptionError(node.at, f"machine {name!r}: ssh-port {port!r} is not a whole number", "launch-machine")
     timeout_s = attributes.number("timeout", default=10.0)
     if not timeout_s > 0.0:
-        raise DescriptionError(node.at, f"machine {name!r}: timeout must be > 0 s, got {timeout_s:g}")
+        raise DescriptionError(node.at, f"machine {name!r}: timeout must be > 0 s, got {timeout_s:g}", "launch-machine")
     for child in node.children:
-        report.warn(child.at, f"<{child.tag}> in <machine> is not known; it is ignored")
+        report.warn(child.at, f"<{child.tag}> in <machine> is not known; it is ignored", "unsupported-element")
     login = tuple(attributes.text(word) for word in ("env-loader", "user", "password"))
     builder.add_machine(name, (address, *login, int(port), timeout_s, default == "never"), node.at)
     if default == "true":

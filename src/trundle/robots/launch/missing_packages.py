@@ -14,6 +14,8 @@ from .plan import LaunchNode
 class MissingPackageError(DescriptionError):
     """A `$(find)` of an unknown package."""
 
+    id = "missing-package"
+
 
 _PACKAGE = re.compile(r"\$\(find ([\w.-]+)\)")
 
@@ -47,9 +49,9 @@ class MissingPackages:
         """Return an error that names all missing packages, the first in full."""
         others = sorted(self._first_uses.items(), key=lambda item: (item[1][0].file, item[1][0].line or 0))
         more = [
-            DescriptionError(at, f"no package {name!r}{purpose}{repository_hint(name)}")
+            DescriptionError(at, f"no package {name!r}{purpose}{repository_hint(name)}", "missing-package")
             for name, (at, purpose) in others
             if f"no package {name!r}" not in first.what
         ]
         names = tuple(name for name, _ in others)
-        return DescriptionError(first.at, first.what, more=more, missing_packages=names)
+        return DescriptionError(first.at, first.what, "missing-package", more=more, missing_packages=names)

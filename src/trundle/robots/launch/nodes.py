@@ -49,14 +49,16 @@ def read_node(
     if is_test:
         for name in _NODE_ONLY:
             if node.attribute(name) is not None:
-                raise DescriptionError(node.at, f"<test> takes no {name!r}")
+                raise DescriptionError(node.at, f"<test> takes no {name!r}", "unsupported-attribute")
         name = attributes.text("name") or attributes.required("test-name")
     else:
         name = attributes.required("name", empty=True) or substitution.anonymous(attributes.required("type"))
     if "/" in name:
-        raise DescriptionError(node.at, f"node name {name!r} holds a '/'; a namespace goes into 'ns'")
+        raise DescriptionError(
+            node.at, f"node name {name!r} holds a '/'; a namespace goes into 'ns'", "launch-node-name"
+        )
     if not is_legal_name(name):
-        report.warn(node.at, f"node name {name!r} is not a legal ROS name; it is used as it is")
+        report.warn(node.at, f"node name {name!r} is not a legal ROS name; it is used as it is", "launch-node-name")
 
     node_scope = scope.child(attributes.namespace())
     private_scope = node_scope.child(name)
@@ -69,7 +71,9 @@ def read_node(
 
     respawn, required = attributes.flag("respawn"), attributes.flag("required")
     if respawn and required:
-        raise DescriptionError(node.at, f"node {name!r}: 'respawn' and 'required' cannot both be true")
+        raise DescriptionError(
+            node.at, f"node {name!r}: 'respawn' and 'required' cannot both be true", "launch-conflict"
+        )
     launch_node = LaunchNode(
         name=name,
         namespace=node_scope.namespace,
@@ -90,10 +94,10 @@ def read_node(
     if is_test:
         limit_s = attributes.number("time-limit", default=60.0) if attributes.text("time-limit") else 60.0
         if not limit_s > 0.0:
-            raise DescriptionError(node.at, f"time-limit must be > 0 s, got {limit_s:g}")
+            raise DescriptionError(node.at, f"time-limit must be > 0 s, got {limit_s:g}", "launch-value")
         test_name, retries = attributes.required("test-name"), _retries(attributes)
         builder.add_test(LaunchTest(name=test_name, node=launch_node, time_limit_s=limit_s, retries=retries))
-        report.info(node.at, f"test {name!r} is not run: only `trundle test` runs tests")
+        report.info(node.at, f"test {name!r} is not run: only `trundle test` runs tests", "launch-test")
     else:
         builder.add_node(launch_node)
 
@@ -124,7 +128,9 @@ def _read_children(
             case "env":
                 read_env(child, private_scope, node_scope, substitution, report)
             case _:
-                report.warn(child.at, f"<{child.tag}> in <{node.tag}> is not known; it is ignored")
+                report.warn(
+                    child.at, f"<{child.tag}> in <{node.tag}> is not known; it is ignored", "unsupported-element"
+                )
     return private
 
 
@@ -133,7 +139,7 @@ def _retries(attributes: Attributes) -> int:
     try:
         return int(text)
     except ValueError:
-        raise DescriptionError(attributes.at, f"<test> retry: {text!r} is not a whole number") from None
+        raise DescriptionError(attributes.at, f"<test> retry: {text!r} is not a whole number", "launch-value") from None
 
 
 def _output(attributes: Attributes) -> Literal["log", "screen"]:
@@ -143,7 +149,7 @@ def _output(attributes: Attributes) -> Literal["log", "screen"]:
         case "screen":
             return "screen"
         case other:
-            raise DescriptionError(attributes.at, f"output {other!r}; there are 'log', 'screen'")
+            raise DescriptionError(attributes.at, f"output {other!r}; there are 'log', 'screen'", "launch-value")
 
 
 def _cwd(attributes: Attributes) -> Literal["ROS_HOME", "node"]:
@@ -153,4 +159,4 @@ def _cwd(attributes: Attributes) -> Literal["ROS_HOME", "node"]:
         case "node":
             return "node"
         case other:
-            raise DescriptionError(attributes.at, f"cwd {other!r}; there are 'ROS_HOME', 'node'")
+            raise DescriptionError(attributes.at, f"cwd {other!r}; there are 'ROS_HOME', 'node'", "launch-value")

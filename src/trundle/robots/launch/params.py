@@ -38,12 +38,16 @@ def read_param(attributes: Attributes) -> tuple[str, ParamValue | ParamCommand]:
     name = attributes.required("name").strip()
     if len(sources) != 1:
         listed = "none" if not sources else " and ".join(map(repr, sources))
-        raise DescriptionError(at, f"param {name!r} needs one of {', '.join(map(repr, _SOURCES))}; it has {listed}")
+        raise DescriptionError(
+            at, f"param {name!r} needs one of {', '.join(map(repr, _SOURCES))}; it has {listed}", "launch-param"
+        )
     ((source, text),) = sources.items()
     # This attribute is not substituted, as in roslaunch.
     type_name = (attributes.node.attribute("type") or "auto").lower().strip()
     if type_name not in _TYPES:
-        raise DescriptionError(at, f"param {name!r}: no type {type_name!r}; types are {', '.join(_TYPES)}")
+        raise DescriptionError(
+            at, f"param {name!r}: no type {type_name!r}; types are {', '.join(_TYPES)}", "launch-param"
+        )
     kind = _TYPES[type_name]
     try:
         match source:
@@ -56,9 +60,9 @@ def read_param(attributes: Attributes) -> tuple[str, ParamValue | ParamCommand]:
             case _:
                 return name, ParamCommand(line=text, type=kind, at=at)
     except UnicodeDecodeError:
-        raise DescriptionError(at, f"param {name!r}: {text!r} is not a text file") from None
+        raise DescriptionError(at, f"param {name!r}: {text!r} is not a text file", "launch-param") from None
     except ValueError as error:
-        raise DescriptionError(at, f"param {name!r}: {error}") from None
+        raise DescriptionError(at, f"param {name!r}: {error}", "launch-param") from None
 
 
 def read_rosparam(
@@ -83,16 +87,18 @@ def read_rosparam(
         case "dump" | "delete":
             _step(attributes, builder, command, name, file)
         case _:
-            raise DescriptionError(node.at, f"rosparam command {command!r}; there are 'load', 'dump', 'delete'")
+            raise DescriptionError(
+                node.at, f"rosparam command {command!r}; there are 'load', 'dump', 'delete'", "rosparam"
+            )
 
 
 def _step(
     attributes: Attributes, builder: PlanBuilder, command: Literal["dump", "delete"], name: str, file: str | None
 ) -> None:
     if command == "delete" and file is not None:
-        raise DescriptionError(attributes.at, "rosparam delete takes no 'file'")
+        raise DescriptionError(attributes.at, "rosparam delete takes no 'file'", "rosparam")
     if command == "dump" and not file:
-        raise DescriptionError(attributes.at, "rosparam dump needs the attribute 'file'")
+        raise DescriptionError(attributes.at, "rosparam dump needs the attribute 'file'", "rosparam")
     builder.add_step(ParamStep(command=command, name=name, file=file or "", at=attributes.at))
 
 
@@ -103,13 +109,13 @@ def _load(attributes: Attributes, builder: PlanBuilder, name: str, file: str | N
         text = attributes.resolve(text) if attributes.flag("subst_value") else text
         data = load_yaml(text, attributes.count_values)
     except UnicodeDecodeError:
-        raise DescriptionError(at, f"rosparam: {file!r} is not a text file") from None
+        raise DescriptionError(at, f"rosparam: {file!r} is not a text file", "rosparam") from None
     except ValueError as error:
-        raise DescriptionError(at, f"rosparam{'' if file is None else f' {file!r}'}: {error}") from None
+        raise DescriptionError(at, f"rosparam{'' if file is None else f' {file!r}'}: {error}", "rosparam") from None
     if data is None:
         data = {}
     if needs_mapping and not isinstance(data, dict):
-        raise DescriptionError(at, "rosparam needs the attribute 'param' where its YAML is not a mapping")
+        raise DescriptionError(at, "rosparam needs the attribute 'param' where its YAML is not a mapping", "rosparam")
     _set(builder, name, data, attributes)
 
 

@@ -37,7 +37,9 @@ class PlanBuilder:
             DescriptionError: duplicate name.
         """
         if other := self._nodes.get(node.full_name):
-            raise DescriptionError(node.at, f"two nodes are named {node.full_name!r}; the other one is at {other.at}")
+            raise DescriptionError(
+                node.at, f"two nodes are named {node.full_name!r}; the other one is at {other.at}", "duplicate-name"
+            )
         self._nodes[node.full_name] = node
 
     def add_machine(self, name: str, settings: tuple[object, ...], at: Source) -> None:
@@ -47,7 +49,7 @@ class PlanBuilder:
             DescriptionError: duplicate name.
         """
         if name != "localhost" and self._machines.setdefault(name, settings) != settings:
-            raise DescriptionError(at, f"two machines are named {name!r}, and they differ")
+            raise DescriptionError(at, f"two machines are named {name!r}, and they differ", "launch-machine")
 
     def add_test(self, test: LaunchTest) -> None:
         self._tests.append(test)
@@ -65,10 +67,12 @@ class PlanBuilder:
         while parent:
             if parent in self._params:
                 parent_at = self._params[parent].at
-                self._report.warn(at, f"parameter {name!r} lies below the parameter {parent!r} of {parent_at}")
+                self._report.warn(
+                    at, f"parameter {name!r} lies below the parameter {parent!r} of {parent_at}", "launch-param"
+                )
             parent = parent.rpartition("/")[0]
         if len(self._params) >= _MAX_PARAMS:
-            raise DescriptionError(at, f"more than {_MAX_PARAMS} parameters")
+            raise DescriptionError(at, f"more than {_MAX_PARAMS} parameters", "too-large")
         self._params[name] = LaunchParam(name=name, value=value, at=at)
 
     def build(self) -> LaunchPlan:
@@ -87,6 +91,6 @@ class PlanBuilder:
         if node.machine not in self._machines:
             machines = ", ".join(repr(name) for name in self._machines if name not in ("", "localhost")) or "none"
             message = f"node {node.name!r}: no machine {node.machine!r}, so it cannot be launched; machines: {machines}"
-            self._report.warn(node.at, message)
+            self._report.warn(node.at, message, "unknown-machine")
             return replace(node, address=None)
         return replace(node, address=str(self._machines[node.machine][0]))

@@ -169,9 +169,11 @@ class _Reader:
         self.builder.add_file(Path(scope.file))
         for name in root.attributes():
             if name != "deprecated":
-                self._report.warn(root.at, f"attribute {name!r} of <launch> is not known; it is ignored")
+                self._report.warn(
+                    root.at, f"attribute {name!r} of <launch> is not known; it is ignored", "unsupported-attribute"
+                )
         if deprecated := root.attribute("deprecated"):
-            self._report.warn(root.at, f"deprecated: {deprecated}")
+            self._report.warn(root.at, f"deprecated: {deprecated}", "launch-deprecated")
         self._children(root, scope, depth=depth)
 
     def _attributes(self, node: XmlNode, scope: Scope, *known: str) -> Attributes:
@@ -183,7 +185,7 @@ class _Reader:
                 self._child(node, scope, depth=depth)
             except MissingPackageError as error:
                 if self._is_lenient:
-                    self._report.warn(error.at, f"{error.what}; {element_name(node)} is left out")
+                    self._report.warn(error.at, f"{error.what}; {element_name(node)} is left out", error.id)
                 elif not self._collects_missing:
                     raise
             except DescriptionError as error:
@@ -217,11 +219,13 @@ class _Reader:
             case "machine":
                 read_machine(node, scope, self._substitution, self.builder, self._report)
             case "launch":
-                raise DescriptionError(node.at, "<launch> within <launch>; a file has one")
+                raise DescriptionError(node.at, "<launch> within <launch>; a file has one", "wrong-root")
             case "master":
-                self._report.warn(node.at, "<master> has no effect since ROS 0.7; it is ignored")
+                self._report.warn(node.at, "<master> has no effect since ROS 0.7; it is ignored", "unsupported-element")
             case tag:
-                self._report.warn(node.at, f"<{tag}> is not a tag of launch files; it is ignored")
+                self._report.warn(
+                    node.at, f"<{tag}> is not a tag of launch files; it is ignored", "unsupported-element"
+                )
 
     def _group(self, node: XmlNode, scope: Scope, *, depth: int) -> None:
         attributes = self._attributes(node, scope, "ns", "clear_params")
@@ -233,7 +237,9 @@ class _Reader:
 
     def _clear(self, attributes: Attributes, scope: Scope) -> None:
         if attributes.text("ns") is None:
-            raise DescriptionError(attributes.at, "clear_params needs the attribute 'ns', which names what to clear")
+            raise DescriptionError(
+                attributes.at, "clear_params needs the attribute 'ns', which names what to clear", "missing-attribute"
+            )
         self.builder.clear(scope.namespace)
 
     def _arg(self, node: XmlNode, scope: Scope, target: Scope, *, top: bool = False) -> None:
@@ -244,9 +250,11 @@ class _Reader:
         name = attributes.required("name")
         value, default = attributes.text("value"), attributes.text("default")
         if value is not None and default is not None:
-            raise DescriptionError(node.at, f"argument {name!r}: either 'value' or 'default', not both")
+            raise DescriptionError(
+                node.at, f"argument {name!r}: either 'value' or 'default', not both", "launch-conflict"
+            )
         if name in target.declared and not target.lenient_arguments:
-            raise DescriptionError(node.at, f"argument {name!r} is declared twice")
+            raise DescriptionError(node.at, f"argument {name!r} is declared twice", "duplicate-name")
         target.declared.add(name)
         if top:
             required = value is None and default is None
@@ -254,7 +262,9 @@ class _Reader:
             self.builder.arguments.append(LaunchArgument(name=name, default=default, doc=doc, required=required))
         if value is not None:
             if name in target.arguments and not target.lenient_arguments:
-                raise DescriptionError(node.at, f"argument {name!r} has a fixed value, {value!r}; it cannot be set")
+                raise DescriptionError(
+                    node.at, f"argument {name!r} has a fixed value, {value!r}; it cannot be set", "launch-arg"
+                )
             target.arguments[name] = value
         elif default is not None:
             target.arguments.setdefault(name, default)
@@ -265,7 +275,9 @@ class _Reader:
             return
         file = attributes.required("file")
         if depth >= _MAX_INCLUDE_DEPTH:
-            raise DescriptionError(node.at, f"{file!r} is included {depth} levels deep; it may include itself")
+            raise DescriptionError(
+                node.at, f"{file!r} is included {depth} levels deep; it may include itself", "include-cycle"
+            )
         pass_all = attributes.flag("pass_all_args")
         passed = scope.included(attributes.namespace(), file, scope.arguments.items() if pass_all else ())
         passed.lenient_arguments = pass_all
@@ -278,15 +290,17 @@ class _Reader:
                 case "env":
                     read_env(child, scope, passed, self._substitution, self._report)
                 case _:
-                    self._report.warn(child.at, f"<{child.tag}> in <include> is not known; it is ignored")
+                    self._report.warn(
+                        child.at, f"<{child.tag}> in <include> is not known; it is ignored", "unsupported-element"
+                    )
         for name in sorted(passed.declared - set(passed.arguments)):
-            raise DescriptionError(node.at, f"argument {name!r} is passed to {file!r} without a value")
+            raise DescriptionError(node.at, f"argument {name!r} is passed to {file!r} without a value", "launch-arg")
         passed_names = passed.declared
         passed.declared = set()
         self._files.check(file, node.at)
         self._substitution.refuse_absent(file, node.at)
         if not os.path.exists(file):
-            raise DescriptionError(node.at, f"no launch file {file!r} to include")
+            raise DescriptionError(node.at, f"no launch file {file!r} to include", "missing-file")
         try:
             root = read_launch_file(Path(file), self._report, self._files.budget, node.at)
             self._launch(root, passed, depth=depth + 1)
@@ -294,10 +308,12 @@ class _Reader:
             trace = f"; included at {node.at}"
             if depth >= _MAX_INCLUDES_IN_ERROR or error.what.endswith(trace):
                 raise
-            raise type(error)(error.at, error.what + trace) from None
+            raise type(error)(error.at, error.what + trace, error.id) from None
         if unused := sorted(passed_names - passed.declared):
             known = ", ".join(map(repr, sorted(passed.declared))) or "none"
-            raise DescriptionError(node.at, f"{file!r} has no argument {unused[0]!r}; its arguments: {known}")
+            raise DescriptionError(
+                node.at, f"{file!r} has no argument {unused[0]!r}; its arguments: {known}", "unknown-argument"
+            )
 
 
 def _launch_of(root: XmlNode) -> XmlNode:
@@ -311,5 +327,5 @@ def _launch_of(root: XmlNode) -> XmlNode:
         pending += node.children
         launches += [node] if node.tag == "launch" else []
     if len(launches) != 1:
-        raise DescriptionError(root.at, f"a launch file starts with <launch>, not <{root.tag}>")
+        raise DescriptionError(root.at, f"a launch file starts with <launch>, not <{root.tag}>", "wrong-root")
     return launches[0]

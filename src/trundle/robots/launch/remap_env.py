@@ -21,7 +21,7 @@ def read_remap(node: XmlNode, scope: Scope, target: Scope, substitution: Substit
     names = {label: canonical_name(attributes.required(label)) for label in ("from", "to")}
     for label, name in names.items():
         if not is_legal_name(name):
-            raise DescriptionError(node.at, f"remap {label} {name!r}: not a legal ROS name")
+            raise DescriptionError(node.at, f"remap {label} {name!r}: not a legal ROS name", "launch-remap")
     target.remap(names["from"], names["to"])
 
 

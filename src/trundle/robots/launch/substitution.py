@@ -86,12 +86,16 @@ class Substitution:
         def value(match: re.Match[str]) -> str:
             body: str = match[1]
             if "$" in body or "(" in body:
-                raise DescriptionError(at, f"{match[0]!r}: substitutions cannot hold one another outside $(eval …)")
+                raise DescriptionError(
+                    at, f"{match[0]!r}: substitutions cannot hold one another outside $(eval …)", "launch-substitution"
+                )
             words = [word for word in body.split(" ") if word]
             if not words or words[0] not in _COMMANDS:
                 commands_text = ", ".join(_COMMANDS)
                 extra = "; eval must be the whole attribute" if words and words[0] == "eval" else ""
-                raise DescriptionError(at, f"unknown substitution $({body}); there are {commands_text}{extra}")
+                raise DescriptionError(
+                    at, f"unknown substitution $({body}); there are {commands_text}{extra}", "launch-substitution"
+                )
             if words[0] not in commands:
                 return match[0]
             before = match[0][: match[0].index("$(")]
@@ -109,7 +113,9 @@ class Substitution:
         if command == "dirname":
             return _folder(scope)
         if not words or (len(words) > 1 and command != "optenv"):
-            raise DescriptionError(at, f"$({body}): {command!r} takes one name, got {len(words)}")
+            raise DescriptionError(
+                at, f"$({body}): {command!r} takes one name, got {len(words)}", "launch-substitution"
+            )
         name = words[0]
         match command:
             case "arg":
@@ -128,16 +134,16 @@ class Substitution:
             return scope.arguments[name]
         if name in scope.declared:
             remedy = f"write {name}:=VALUE, or launch a file that includes this one with it"
-            raise DescriptionError(at, f"the argument {name!r} is required and was not given; {remedy}")
+            raise DescriptionError(at, f"the argument {name!r} is required and was not given; {remedy}", "launch-arg")
         declared = ", ".join(map(repr, sorted(scope.declared)))
         hint = f"; declared so far: {declared}" if declared else "; none is declared so far"
         nearest_name = nearest(name, set(scope.arguments) - scope.declared)
         suggestion = f"; {nearest_name!r} is given" if nearest_name else ""
-        raise DescriptionError(at, f"no argument {name!r}{hint}{suggestion}")
+        raise DescriptionError(at, f"no argument {name!r}{hint}{suggestion}", "launch-arg")
 
     def _env(self, name: str, at: Source) -> str:
         if name not in self.env:
-            raise DescriptionError(at, f"the environment variable {name!r} is not set")
+            raise DescriptionError(at, f"the environment variable {name!r} is not set", "launch-substitution")
         return self.env[name]
 
     def _anon(self, name: str, scope: Scope) -> str:
@@ -185,7 +191,9 @@ class Substitution:
         except Exception as error:  # an expression may raise anything
             message = f"not a Python expression: {error.msg}" if isinstance(error, SyntaxError) else str(error)
             raise DescriptionError(
-                at, f"$(eval {text[:_MAX_LENGTH]}): {message[:_MAX_LENGTH] or type(error).__name__}"
+                at,
+                f"$(eval {text[:_MAX_LENGTH]}): {message[:_MAX_LENGTH] or type(error).__name__}",
+                "launch-substitution",
             ) from None
 
 

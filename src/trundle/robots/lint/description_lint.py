@@ -55,12 +55,14 @@ def _lint_inertia(link: Link, report: Diagnostics) -> None:
             link.at,
             f"link {link.name!r}: a moment of inertia of {largest:g} kg·m² is too large for {inertial.mass:g} kg "
             f"within {reach:.3g} m (at most {limit:.3g}); it will turn far too slowly",
+            "implausible-inertia",
         )
     elif 0.0 < largest < _MIN_MOMENT_RATIO * limit:
         report.warn(
             link.at,
             f"link {link.name!r}: moments of inertia of at most {largest:g} kg·m² are tiny for {inertial.mass:g} kg "
             f"within {reach:.3g} m ({limit:.3g} would be the largest); it may jitter",
+            "implausible-inertia",
         )
 
 
@@ -101,4 +103,8 @@ def _lint_joints(model: Model, driven: str, report: Diagnostics) -> None:
     ]
     if idle:
         names = ", ".join(map(repr, idle[:8])) + (f" and {len(idle) - 8} more" if len(idle) > 8 else "")
-        report.info(model.at, f"model {model.name!r}: no plugin or transmission here names {names}; they move freely")
+        report.info(
+            model.at,
+            f"model {model.name!r}: no plugin or transmission here names {names}; they move freely",
+            "undriven-joints",
+        )

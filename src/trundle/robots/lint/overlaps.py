@@ -22,7 +22,7 @@ def report_overlaps(models: tuple[Model, ...], report: Diagnostics) -> None:
     for (first, solids), (second, others) in combinations(static, 2):
         if any(_contains_center(one, other) or _contains_center(other, one) for one in solids for other in others):
             message = f"model {second.name!r} overlaps model {first.name!r}, and both are static; is one misplaced?"
-            report.info(second.at, message)
+            report.info(second.at, message, "overlapping-models")
 
 
 def _solids(model: Model) -> Iterator[tuple[Pose, Vector3]]:

@@ -21,6 +21,8 @@ class MeshError(TrundleError):
 
     __module__ = "trundle"
 
+    id = "mesh"
+
 
 class MeshPart(Struct, frozen=True, kw_only=True):
     """Contiguous faces of a mesh with one material."""

@@ -22,22 +22,32 @@ def model_file(folder: Path, report: Diagnostics) -> Path:
     if not os.path.exists(config):
         manifest = folder / "manifest.xml"
         if not os.path.exists(manifest):
-            raise DescriptionError(Source(str(folder)), f"no model.config in this folder; there is: {_listed(folder)}")
-        report.warn(Source(str(manifest)), "manifest.xml is deprecated; name it model.config")
+            raise DescriptionError(
+                Source(str(folder)), f"no model.config in this folder; there is: {_listed(folder)}", "model-config"
+            )
+        report.warn(Source(str(manifest)), "manifest.xml is deprecated; name it model.config", "model-config")
         config = manifest
     root = read_xml(config, report=report)
     elements = root.all("sdf")
     if not elements:
-        raise DescriptionError(Source(str(config)), "no <sdf> element names the model's file")
+        raise DescriptionError(Source(str(config)), "no <sdf> element names the model's file", "model-config")
     best = max(elements, key=lambda node: _rank(node, report))
     if _rank(best, report) == _TOO_NEW:
         newest = ".".join(map(str, NEWEST))
-        report.warn(best.at, f"SDF {best.attribute('version')} is newer than {newest}; it is read as {newest}")
+        report.warn(
+            best.at, f"SDF {best.attribute('version')} is newer than {newest}; it is read as {newest}", "sdf-version"
+        )
     if folder.parent == ASSETS / "stand_ins":
-        report.info(root.at, f"model://{folder.name} is not on GAZEBO_MODEL_PATH; {root.string('description')}")
+        report.info(
+            root.at,
+            f"model://{folder.name} is not on GAZEBO_MODEL_PATH; {root.string('description')}",
+            "stand-in-model",
+        )
     path = folder / best.text
     if not os.path.isfile(path) or not Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder)):
-        raise DescriptionError(best.at, f"no file {best.text!r} in {folder}; there is: {_listed(folder)}")
+        raise DescriptionError(
+            best.at, f"no file {best.text!r} in {folder}; there is: {_listed(folder)}", "model-config"
+        )
     refuse_template(path)
     return path
 
@@ -51,7 +61,9 @@ def refuse_template(path: Path) -> None:
     if path.suffix in _TEMPLATES:
         output = path.with_suffix("").name if path.suffix == ".erb" else f"{path.stem}.sdf"
         raise DescriptionError(
-            Source(str(path)), f"a Ruby template, which is not run; expand it first: erb {path.name} > {output}"
+            Source(str(path)),
+            f"a Ruby template, which is not run; expand it first: erb {path.name} > {output}",
+            "erb-template",
         )
 
 
@@ -62,12 +74,14 @@ _TOO_NEW = (-2,)
 def _rank(node: XmlNode, report: Diagnostics) -> tuple[int, ...]:
     text = node.attribute("version")
     if text is None:
-        report.warn(node.at, "<sdf> without a version; it is used only if there is no other")
+        report.warn(node.at, "<sdf> without a version; it is used only if there is no other", "model-config")
         return _NO_VERSION
     try:
         version = tuple(int(part) for part in text.split("."))
     except ValueError:
-        report.warn(node.at, f"<sdf version={text!r}> is not a version; it is used only if there is no other")
+        report.warn(
+            node.at, f"<sdf version={text!r}> is not a version; it is used only if there is no other", "model-config"
+        )
         return _NO_VERSION
     return version if version <= NEWEST else _TOO_NEW
 

@@ -111,7 +111,7 @@ class Packages:
         for name, message in self._cache.shadowed.items():
             if message:
                 self._cache.shadowed[name] = ""
-                report.warn(at, message)
+                report.warn(at, message, "shadowed-package")
 
     @property
     def configured_files(self) -> list[Path]:
@@ -172,7 +172,8 @@ class Packages:
         folder = self._gazebo.find_model(name)
         if folder is None:
             raise UsageError(
-                f"no model {_shown(name)!r}{did_you_mean(name, self.models())}; {self._where_models_are()}"
+                f"no model {_shown(name)!r}{did_you_mean(name, self.models())}; {self._where_models_are()}",
+                id="missing-model",
             )
         return folder
 
@@ -229,9 +230,9 @@ class Packages:
             path = path.with_suffix(".obj")
         label = "" if root is None else f"{_shown(uri)}: "  # the message already has the path
         if not os.path.exists(path):
-            raise DescriptionError(at, f"{label}no such file {_shown(str(path))}")
+            raise DescriptionError(at, f"{label}no such file {_shown(str(path))}", "missing-file")
         if is_stream(path):
-            raise DescriptionError(at, f"{label}{path} is a pipe, a device or a socket, not a file")
+            raise DescriptionError(at, f"{label}{path} is a pipe, a device or a socket, not a file", "unreadable-file")
         self.check_readable(path, at, name=uri, root=root)
         return path
 
@@ -255,6 +256,7 @@ class Packages:
                 at,
                 f"{name} leads to {path}; a description reads only below its own folders, the packages and the "
                 "resource paths; --allow-outside lifts that",
+                "outside-folders",
             )
 
     @cached_property
@@ -299,7 +301,9 @@ class Packages:
                 return None, resource or folder / rest
             case _:
                 fallback = "package://, model://, file:// or relative paths"
-                raise DescriptionError(at, f"{_shown(uri)}: {_shown(scheme)}:// is not supported; use {fallback}")
+                raise DescriptionError(
+                    at, f"{_shown(uri)}: {_shown(scheme)}:// is not supported; use {fallback}", "uri-scheme"
+                )
 
     def _in_package_or_model(self, scheme: str, rest: str, uri: str, at: Source) -> tuple[Path, Path]:
         """Find a package, else a model; for model://, a model, else a package: the conversion of URDF to SDF turns
@@ -312,7 +316,9 @@ class Packages:
             return folder, folder / inside
         no_model = f"no model {_shown(name)!r}{did_you_mean(name, self.models())}; {self._where_models_are()}"
         reason = self.not_found_message(name) if scheme == "package" else no_model
-        raise DescriptionError(at, f"{_shown(uri)}: {reason}")
+        raise DescriptionError(
+            at, f"{_shown(uri)}: {reason}", "missing-package" if scheme == "package" else "missing-model"
+        )
 
     def _downloaded(self, url: str, at: Source) -> tuple[Path, Path]:
         folder = self._gazebo.find_downloaded(url)
@@ -326,7 +332,7 @@ class Packages:
             advice = f"write model://{local}{inside}, which is here"
         else:
             advice = "fetch it with `gz fuel download -u URL`, or put its folder on GAZEBO_MODEL_PATH"
-        raise DescriptionError(at, f"{_shown(url)}: nothing is fetched from the network; {advice}")
+        raise DescriptionError(at, f"{_shown(url)}: nothing is fetched from the network; {advice}", "remote-uri")
 
     def _where_models_are(self) -> str:
         looked = ", ".join(map(str, self._gazebo.model_folders))

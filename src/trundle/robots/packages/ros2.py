@@ -24,7 +24,9 @@ def refuse_ros2_language(file: Path, *, is_launch: bool) -> None:
     """
     language = _IN_OTHER_LANGUAGES.get(file.suffix)
     if language is not None and (is_launch or _NAME.fullmatch(file.name)):
-        raise DescriptionError(Source(str(file)), f"a launch file {language} is one of ROS 2; {_READ_HERE}")
+        raise DescriptionError(
+            Source(str(file)), f"a launch file {language} is one of ROS 2; {_READ_HERE}", "ros2-file"
+        )
 
 
 def refuse_ros2(node: "XmlNode") -> None:
@@ -34,7 +36,7 @@ def refuse_ros2(node: "XmlNode") -> None:
         DescriptionError: an element uses it.
     """
     if shown := _shown_by(node):
-        raise DescriptionError(node.at, f"{shown}: this is a launch file of ROS 2; {_READ_HERE}")
+        raise DescriptionError(node.at, f"{shown}: this is a launch file of ROS 2; {_READ_HERE}", "ros2-file")
     for child in node.children:
         refuse_ros2(child)
 

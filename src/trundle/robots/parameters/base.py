@@ -16,6 +16,8 @@ _Value = TypeVar("_Value")
 class ParamError(UsageError):
     """Missing or invalid parameter; the message names it."""
 
+    id = "plugin-parameter"
+
 
 class Parameters(ABC):
     """Named parameters; a getter without a default raises ParamError if the parameter is absent."""

@@ -58,7 +58,7 @@ class TagParameters(Parameters):
     def warn(self, message: str, name: str | None = None) -> None:
         """Report a warning at the element, or at one of its parameters."""
         child = None if name is None else self._child(name)
-        self.report.warn(self.at if child is None else child.at, message)
+        self.report.warn(self.at if child is None else child.at, message, "plugin-parameter")
 
     def ignore(self, *names: str) -> None:
         """Mark parameters without effect as read."""

@@ -35,7 +35,9 @@ def read_link(node: XmlNode, materials: Materials, report: Diagnostics) -> Robot
             shapes[child.tag].append(shape)
     if nodes[read:]:
         skipped = ", ".join(dict.fromkeys(f"<{child.tag}>" for child in nodes[read:]))
-        report.warn(nodes[read].at, f"link {name!r}: as by urdfdom, {skipped} after a fault is not read")
+        report.warn(
+            nodes[read].at, f"link {name!r}: as by urdfdom, {skipped} after a fault is not read", "urdf-after-fault"
+        )
     node.attributes()
     node.report_unread(report)
     return RobotLink(
@@ -55,7 +57,7 @@ def _read_inertial(link: XmlNode, name: str, report: Diagnostics) -> tuple[Robot
     mass_node, inertia = node.find("mass"), node.find("inertia")
     mass = None if mass_node is None else read_number(mass_node, "value", report, limit=MAX_MASS)
     if mass is None:
-        report.warn(node.at, f"link {name!r}: <inertial> without a <mass value=…> is dropped")
+        report.warn(node.at, f"link {name!r}: <inertial> without a <mass value=…> is dropped", "incomplete-element")
         return None, False
     values: list[float | None] = [None]
     if inertia is not None:
@@ -63,7 +65,7 @@ def _read_inertial(link: XmlNode, name: str, report: Diagnostics) -> tuple[Robot
     is_whole = None not in values
     if not is_whole:
         reason = f"link {name!r}: <inertial> without a whole <inertia>; as by urdfdom, its mass of {mass:g} kg is kept"
-        report.warn(node.at, f"{reason} and its inertia is zero")
+        report.warn(node.at, f"{reason} and its inertia is zero", "incomplete-element")
     ixx, iyy, izz, ixy, ixz, iyz = cast(list[float], values) if is_whole else [0.0] * 6
     inertial = RobotInertial(
         mass=mass, link_from_com=read_origin(node, report), moments=(ixx, iyy, izz), products=(ixy, ixz, iyz)
@@ -78,7 +80,11 @@ def _read_shape(node: XmlNode, materials: Materials | None, report: Diagnostics)
     material = node.find("material")
     if material is not None and materials is not None and material.attribute("name") is None:
         material.mark_all_read()
-        report.warn(material.at, "<material> without a name, a fault to urdfdom; as in Gazebo its <visual> is left out")
+        report.warn(
+            material.at,
+            "<material> without a name, a fault to urdfdom; as in Gazebo its <visual> is left out",
+            "incomplete-element",
+        )
         return None
     look = RobotMaterial() if material is None or materials is None else materials.find(material)
     shape = RobotShape(
@@ -97,7 +103,7 @@ def _read_shape(node: XmlNode, materials: Materials | None, report: Diagnostics)
 def _read_geometry(owner: XmlNode, report: Diagnostics) -> RobotGeometry | None:
     node = owner.find("geometry")
     if node is None or not node.children:
-        report.warn(owner.at, f"<{owner.tag}> without a shape; it is left out")
+        report.warn(owner.at, f"<{owner.tag}> without a shape; it is left out", "incomplete-element")
         return None
     shape = node.children[0]
     node.find(shape.tag)
@@ -117,11 +123,11 @@ def _read_geometry(owner: XmlNode, report: Diagnostics) -> RobotGeometry | None:
         case "mesh":
             uri = shape.attribute("filename")
             if not uri:
-                report.warn(shape.at, "<mesh> without a filename; it is left out")
+                report.warn(shape.at, "<mesh> without a filename; it is left out", "incomplete-element")
                 return None
             is_scaled = shape.attribute("scale") is not None
             scale = read_vector(shape, "scale", report, limit=MAX_LENGTH) if is_scaled else None
             return RobotMesh(uri, scale or (1.0, 1.0, 1.0))
         case other:
-            report.warn(shape.at, f"<{other}> is not a URDF shape; this <{owner.tag}> is left out")
+            report.warn(shape.at, f"<{other}> is not a URDF shape; this <{owner.tag}> is left out", "unsupported-shape")
             return None

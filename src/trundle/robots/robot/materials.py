@@ -30,11 +30,13 @@ class Materials:
         for node in nodes:
             name = node.attribute("name")
             if name is None:
-                report.warn(node.at, "<material> without a name cannot be referenced; it is left out")
+                report.warn(
+                    node.at, "<material> without a name cannot be referenced; it is left out", "incomplete-element"
+                )
                 node.mark_all_read()
                 continue
             if name in self._materials:
-                raise DescriptionError(node.at, f"a second material {name!r}")
+                raise DescriptionError(node.at, f"a second material {name!r}", "duplicate-name")
             self._materials[name] = self._read(node)
 
     def find(self, node: XmlNode) -> RobotMaterial:
@@ -42,7 +44,7 @@ class Materials:
         name, look = node.attribute("name") or "", self._read(node)
         if look == RobotMaterial():
             if name not in self._materials:
-                self._report.warn(node.at, f"no material {name!r}; it has no color")
+                self._report.warn(node.at, f"no material {name!r}; it has no color", "missing-material")
             return self._materials.get(name, look)
         if name:
             self._materials[name] = look
@@ -57,7 +59,7 @@ class Materials:
         text = node.attribute("rgba")
         values = parse_numbers(text or "")
         if values is None or len(values) != 4 or not all(map(math.isfinite, values)):
-            self._report.warn(node.at, f"<color rgba={text!r}> needs four numbers; it is ignored")
+            self._report.warn(node.at, f"<color rgba={text!r}> needs four numbers; it is ignored", "invalid-value")
             return None
         r, g, b, a = (min(max(v, 0.0), 1.0) for v in values)
         return (r, g, b, a)

@@ -23,7 +23,7 @@ def read_vector(node: XmlNode, key: str, report: Diagnostics, *, limit: float = 
     values = parse_numbers(text or "")
     if values is None or len(values) != 3 or not is_within(values, limit):
         fault = f"<{node.tag} {key}={text!r}> needs three numbers within ±{limit:g}"
-        report.warn(node.at, f"{fault}; it is ignored")
+        report.warn(node.at, f"{fault}; it is ignored", "invalid-value")
         return None
     return (values[0], values[1], values[2])
 
@@ -32,7 +32,7 @@ def read_number(node: XmlNode, key: str, report: Diagnostics, *, limit: float = 
     text = node.attribute(key)
     values = parse_numbers(text or "")
     if values is None or len(values) != 1 or not is_within(values, limit):
-        report.warn(node.at, f"<{node.tag} {key}={text!r}> needs one number within ±{limit:g}")
+        report.warn(node.at, f"<{node.tag} {key}={text!r}> needs one number within ±{limit:g}", "invalid-value")
         return None
     return values[0]
 

@@ -148,11 +148,11 @@ def _prism(
     outlines: tuple[tuple[tuple[float, float], ...], ...], height: float, at: Source, report: Diagnostics
 ) -> Mesh | None:
     if sum(map(len, outlines)) > _MAX_CORNERS:
-        report.warn(at, f"a polyline of more than {_MAX_CORNERS} corners; it is not drawn")
+        report.warn(at, f"a polyline of more than {_MAX_CORNERS} corners; it is not drawn", "degenerate-shape")
         return None
     prism = prism_mesh(outlines, height)
     if len(prism.faces) == 0:
-        report.warn(at, "a polyline without area; it is not drawn")
+        report.warn(at, "a polyline without area; it is not drawn", "degenerate-shape")
         return None
     return prism
 
@@ -178,13 +178,17 @@ def _geometry(geometry: Geometry, at: Source, report: Diagnostics) -> ShapeGeome
     try:
         mesh = meshes.load_mesh(path, submesh=geometry.submesh, center=geometry.center_submesh)
     except MeshError as error:
-        report.warn(at, f"{error}; the shape is left out")
+        report.warn(at, f"{error}; the shape is left out", error.id)
         return None
     empty = mesh.degenerate_face_count()
     if 2 * empty > len(mesh.faces):
         report.warn(
-            at, f"{path.name}: {empty} of its {len(mesh.faces)} triangles have no area; only the others are drawn"
+            at,
+            f"{path.name}: {empty} of its {len(mesh.faces)} triangles have no area; only the others are drawn",
+            "degenerate-shape",
         )
     for name in sorted({part.missing_texture for part in mesh.parts if part.missing_texture is not None}):
-        report.info(Source(str(path)), f"its texture {name!r} is not in the model's folder; a plain color is drawn")
+        report.info(
+            Source(str(path)), f"its texture {name!r} is not in the model's folder; a plain color is drawn", "texture"
+        )
     return mesh.scaled(geometry.scale)

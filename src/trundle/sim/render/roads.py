@@ -19,7 +19,11 @@ def road_shapes(world: World, report: Diagnostics) -> Iterator[Shape]:
     static_body = next((body for body, (model, link) in enumerate(links) if model.static or link.fixed), None)
     for road in world.roads:
         if static_body is None:
-            report.warn(road.at, f"<road> {road.name!r}: nothing in this world is static to lay it on; it is not drawn")
+            report.warn(
+                road.at,
+                f"<road> {road.name!r}: nothing in this world is static to lay it on; it is not drawn",
+                "road-without-ground",
+            )
             continue
         model, link = links[static_body]
         world_from_body: Pose = model.world_from_model @ link.model_from_link

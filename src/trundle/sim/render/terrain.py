@@ -25,7 +25,7 @@ def painted_terrain(terrain: Heightmap, at: Source, report: Diagnostics) -> Mesh
     try:
         heights = read_heights(terrain.path, max_samples=_MAX_SAMPLES)
     except MeshError as error:
-        report.warn(at, f"heightmap {terrain.uri!r}: {error}; it is not drawn")
+        report.warn(at, f"heightmap {terrain.uri!r}: {error}; it is not drawn", error.id)
         return None
     mesh = terrain_mesh(heights, terrain.size)
     image = _painted(heights, terrain.size, terrain.layers, at, report)
@@ -50,7 +50,9 @@ def _painted(
             continue
         image = load_texture(layer.diffuse)
         if isinstance(image, str):
-            report.warn(at, f"heightmap texture {layer.diffuse.name} cannot be read: {image}; the layer is left out")
+            report.warn(
+                at, f"heightmap texture {layer.diffuse.name} cannot be read: {image}; the layer is left out", "texture"
+            )
             continue
         colors = _repeated(image, layer.size, size)
         if picture is None:

@@ -40,4 +40,4 @@ def report_unreadable_textures(scene: Scene, report: Diagnostics) -> None:
         if isinstance(image, str):
             visual = f"{scene.bodies[shape.body]}::{shape.name}"
             at = Source(visual if isinstance(shape.texture, bytes) else str(shape.texture))
-            report.warn(at, f"the texture cannot be read: {image}; a plain color is drawn")
+            report.warn(at, f"the texture cannot be read: {image}; a plain color is drawn", "texture")

@@ -69,7 +69,7 @@ def mount_instruments(
                 create = MAKERS.get(sensor.type)
                 if sensor.type == "force_torque" and is_selected:
                     problem = f"sensor {sensor.name!r}: force_torque sensors measure joints; not simulated on a link"
-                    simulation.report.warn(sensor.at, problem)
+                    simulation.report.warn(sensor.at, problem, "unsupported-sensor")
                 if create is not None and is_selected:
                     mount = SensorMount(owner, link, sensor, index, (simulation.seed, number))
                     instrument = create(_MountContext(simulation, ray_scene, mount))
@@ -89,7 +89,7 @@ def _on_joints(simulation: Simulation, model: Model, *, first: int) -> list[Inst
         for sensor in joint.sensors:
             if sensor.force_torque is None or joint.child not in indices:
                 problem = f"sensor {sensor.name!r}: {sensor.type} sensors on joints are not simulated yet"
-                simulation.report.warn(sensor.at, problem)
+                simulation.report.warn(sensor.at, problem, "unsupported-sensor")
                 continue
             robot = simulation[model.name]
             handle = robot.joint(joint.name)
@@ -144,7 +144,7 @@ def _contact(context: _MountContext) -> ContactSensor:
     for name in sensor.contact_collisions or ():
         if name not in names:
             problem = f"no collision {name!r} on link {link.name!r}; collisions here: {', '.join(names) or 'none'}"
-            context.simulation.report.warn(sensor.at, f"sensor {sensor.name!r}: {problem}")
+            context.simulation.report.warn(sensor.at, f"sensor {sensor.name!r}: {problem}", "missing-collision")
     return ContactSensor(context.mount)
 
 

@@ -104,7 +104,9 @@ def _body(actor: "Actor", skin: "Skin", report: Diagnostics) -> Link:
 
     reason = unsupported_reason(actor)
     if reason is not None:
-        report.info(actor.at, f"actor {actor.name!r} is a box of its skin's size; its bones do not move: {reason}")
+        report.info(
+            actor.at, f"actor {actor.name!r} is a box of its skin's size; its bones do not move: {reason}", "actor-skin"
+        )
     return Link(name=name, at=actor.at, kinematic=True, gravity=False, visuals=(visual,))
 
 

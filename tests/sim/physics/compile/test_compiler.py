@@ -73,7 +73,7 @@ def test_a_joint_with_limits_0_and_0_is_rigid_and_reported_once() -> None:
     assert world.model.nv == 6
     assert [len(axes) for axes in world.joint_axes] == [0]
     assert [str(f) for f in report.findings] == [
-        "j.sdf:7: info: joint 'a_b': lower = upper = 0 leaves no freedom; rigid"
+        "j.sdf:7: info: joint 'a_b': lower = upper = 0 leaves no freedom; rigid [joint-physics]"
     ]
 
 

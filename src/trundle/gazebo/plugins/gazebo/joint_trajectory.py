@@ -38,7 +38,7 @@ class JointTrajectory(Plugin):
         ]
         if not joints:
             message = f"plugin {tag.name!r} moves the joints {', '.join(_SWINGS)} only; the model has none of them"
-            sim.report.warn(tag.at, message)
+            sim.report.warn(tag.at, message, "plugin-without-joints")
         tag.node.report_unread(sim.report)
         return cls(joints)
 

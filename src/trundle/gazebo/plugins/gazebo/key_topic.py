@@ -19,11 +19,13 @@ KEYS_TOPIC = "/keyboard/keypress"
 def subscribe_keys(node: Node | None, tag: PluginTag, on_key: Callable[[int], None], report: Diagnostics) -> None:
     """Call a function with each key; warn if there is no node."""
     if node is None:
-        report.warn(tag.at, f"plugin {tag.name!r} reads keys from a ROS topic, which --no-ros leaves out")
+        report.warn(
+            tag.at, f"plugin {tag.name!r} reads keys from a ROS topic, which --no-ros leaves out", "plugin-needs-ros"
+        )
         return
 
     def on_message(message: "std_msgs.Int32") -> None:
         on_key(int(message.data))
 
     node.subscribe(KEYS_TOPIC, "std_msgs/Int32", on_message)
-    report.info(tag.at, f"plugin {tag.name!r} reads keys from the topic {KEYS_TOPIC} (std_msgs/Int32)")
+    report.info(tag.at, f"plugin {tag.name!r} reads keys from the topic {KEYS_TOPIC} (std_msgs/Int32)", "plugin-keys")

@@ -20,7 +20,7 @@ def attach(sensor: InstrumentSensor, parameters: TagParameters, names: PluginNam
     frame = parameters.text("frameName", "world")
     if frame.strip("/") not in ("", "world", "map"):
         message = f"frameName {frame!r} is used in the header only: contacts are in world axes, as in gazebo_ros"
-        parameters.report.info(parameters.at, message)
+        parameters.report.info(parameters.at, message, "bumper-frame")
     publisher = SensorPublisher(topic, names.frame(frame))
     parameters.ignore("updateRate")
 

@@ -133,7 +133,9 @@ class GraspFix(Plugin):
         try:
             arm.attach(name, contacts[0].object_link, [contact for contact in contacts if contact.arm == arm.name])
         except TrundleError as error:
-            self._sim.report.warn_error(error, arm.at, f"{name} is not held", subject=f"arm {arm.name!r}")
+            self._sim.report.warn_error(
+                error, arm.at, f"{name} is not held", "plugin-failed", subject=f"arm {arm.name!r}"
+            )
             return
         self._log(f"grasp_fix: {arm.name} holds {name}")
 

@@ -35,20 +35,22 @@ def read_transmissions(urdf: str, name: str, report: Diagnostics) -> list[Driven
     """
     root = parse_xml(urdf, name=name, report=report)
     if root.tag != "robot":
-        raise DescriptionError(root.at, f"a URDF starts with <robot>, not <{root.tag}>")
+        raise DescriptionError(root.at, f"a URDF starts with <robot>, not <{root.tag}>", "wrong-root")
     joints: dict[str, DrivenJoint] = {}
     for transmission in root.all("transmission"):
         if why := _find_fault(transmission):
             name_attribute = transmission.attribute("name")
             subject = "a transmission" if not name_attribute else f"transmission {name_attribute!r}"
-            report.warn(transmission.at, f"{subject} {why}; it is left out")
+            report.warn(transmission.at, f"{subject} {why}; it is left out", "transmission")
             continue
         for joint in transmission.all("joint"):
             driven = _read_driven_joint(transmission, joint, report)
             if driven is None:
                 continue
             if driven.name in joints:
-                report.warn(joint.at, f"joint {driven.name!r} has a transmission already; this one is left out")
+                report.warn(
+                    joint.at, f"joint {driven.name!r} has a transmission already; this one is left out", "transmission"
+                )
                 continue
             joints[driven.name] = driven
     return list(joints.values())
@@ -77,18 +79,20 @@ def _read_driven_joint(transmission: XmlNode, joint: XmlNode, report: Diagnostic
     name = joint.attribute("name")
     subject = f"transmission {transmission.attribute('name')!r} of joint {name!r}"
     if not name:
-        report.warn(joint.at, f"{subject}: the name is empty; it is left out")
+        report.warn(joint.at, f"{subject}: the name is empty; it is left out", "transmission")
         return None
     texts = _interfaces(joint) or [text for actuator in transmission.all("actuator") for text in _interfaces(actuator)]
     if not texts:
-        report.warn(joint.at, f"{subject} has no <hardwareInterface>; it is left out")
+        report.warn(joint.at, f"{subject} has no <hardwareInterface>; it is left out", "transmission")
         return None
     if len(_interfaces(joint)) > 1:
-        report.warn(joint.at, f"{subject} has {len(texts)} <hardwareInterface> elements; the first one is used")
+        report.warn(
+            joint.at, f"{subject} has {len(texts)} <hardwareInterface> elements; the first one is used", "transmission"
+        )
     interface = texts[0].removeprefix(_PACKAGE)
     if interface not in INTERFACES:
         problem = f"{subject}: unknown hardware interface {texts[0]!r}; known: {', '.join(INTERFACES)}; it is left out"
-        report.warn(joint.at, problem)
+        report.warn(joint.at, problem, "transmission")
         return None
     return DrivenJoint(name, interface)
 

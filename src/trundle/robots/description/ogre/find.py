@@ -40,7 +40,9 @@ def find_material(name: str, script: XmlNode, *, packages: Packages, report: Dia
     at = materials[name].at
     parent = parent_of(materials[name])
     if parent is not None and parent not in materials:
-        report.warn(at, f"material {name!r}: no material {parent!r} to inherit from; it is left out")
+        report.warn(
+            at, f"material {name!r}: no material {parent!r} to inherit from; it is left out", "missing-material"
+        )
     surface = read_surface(name, materials)
     texture = None
     if surface.texture is not None:
@@ -60,7 +62,7 @@ def _resolved(uri: XmlNode, folder: Path, packages: Packages, report: Diagnostic
         return packages.resolve(uri.text, folder=folder, at=uri.at)
     except DescriptionError as error:
         if not uri.text.endswith(_DEFAULT) and not _is_in_stand_in(uri.text, packages):
-            report.warn(error.at, f"{error.what}; it is left out")
+            report.warn(error.at, f"{error.what}; it is left out", error.id)
         return None
 
 
@@ -84,9 +86,11 @@ def _read(file: Path, report: Diagnostics) -> tuple[Block, ...]:
     try:
         return _materials(file, file.stat().st_mtime_ns)
     except DescriptionError as error:
-        report.warn(error.at, f"{error.what}; this material script is left out")
+        report.warn(error.at, f"{error.what}; this material script is left out", error.id)
     except OSError as error:
-        report.warn(Source(str(file)), f"cannot be read: {error.strerror}; this material script is left out")
+        report.warn(
+            Source(str(file)), f"cannot be read: {error.strerror}; this material script is left out", "unreadable-file"
+        )
     return ()
 
 
@@ -107,8 +111,8 @@ def _texture(
                 try:
                     packages.check_readable(path, at, name=f"texture {name!r}", root=folder.parent)
                 except DescriptionError as error:
-                    report.warn(error.at, f"{error.what}; it is left out")
+                    report.warn(error.at, f"{error.what}; it is left out", error.id)
                     return None
                 return path
-    report.warn(at, f"no texture {name!r} in the folders named, nor in a folder textures beside the script")
+    report.warn(at, f"no texture {name!r} in the folders named, nor in a folder textures beside the script", "texture")
     return None

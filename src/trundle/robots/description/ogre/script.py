@@ -51,16 +51,20 @@ def parse_script(text: str, *, name: str) -> Block:
             words = []
         if token == "{":
             if not open_blocks[-1].statements or len(open_blocks) > _DEEPEST:
-                raise DescriptionError(Source(name, line), "'{' without a word before it, or nested too deeply")
+                raise DescriptionError(
+                    Source(name, line), "'{' without a word before it, or nested too deeply", "material-script"
+                )
             block = Block(open_blocks[-1].statements.pop(), Source(name, line))
             open_blocks[-1].blocks.append(block)
             open_blocks.append(block)
         if token == "}":
             open_blocks.pop()
             if not open_blocks:
-                raise DescriptionError(Source(name, line), "'}' without a '{' before it")
+                raise DescriptionError(Source(name, line), "'}' without a '{' before it", "material-script")
     if len(open_blocks) > 1:
-        raise DescriptionError(open_blocks[-1].at, f"the '{{' of {open_blocks[-1].header[0]!r} is never closed")
+        raise DescriptionError(
+            open_blocks[-1].at, f"the '{{' of {open_blocks[-1].header[0]!r} is never closed", "material-script"
+        )
     return top
 
 

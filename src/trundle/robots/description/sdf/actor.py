@@ -28,7 +28,7 @@ def read_actor(node: XmlNode, context: Context) -> Actor:
         graph.add(link, read_pose(child, context), child.at)
     warn_ignored(node, ("static",), "does not apply to actors", context)
     if node.attribute("static") is not None:
-        report.info(node.at, f"attribute 'static' of actor {name!r} is ignored")
+        report.info(node.at, f"attribute 'static' of actor {name!r} is ignored", "unsupported-attribute")
     script = node.find("script")
     actor = Actor(
         name=name,
@@ -51,7 +51,11 @@ def read_actor(node: XmlNode, context: Context) -> Actor:
     for trajectory in actor.trajectories:
         if animations and trajectory.type not in animations:
             available = ", ".join(map(repr, sorted(animations)))
-            report.warn(node.at, f"actor {name!r}: no animation {trajectory.type!r}; animations here: {available}")
+            report.warn(
+                node.at,
+                f"actor {name!r}: no animation {trajectory.type!r}; animations here: {available}",
+                "unknown-choice",
+            )
     return actor
 
 
@@ -87,12 +91,12 @@ def _animation(node: XmlNode, context: Context) -> Animation:
 def _file(node: XmlNode, context: Context) -> tuple[Path | None, str]:
     uri = node.string("filename")
     if not uri:
-        context.report.warn(node.at, f"<{node.tag}> without <filename>; it is left out")
+        context.report.warn(node.at, f"<{node.tag}> without <filename>; it is left out", "incomplete-element")
         return None, uri
     try:
         return context.packages.resolve(uri, folder=context.folder, at=node.at), uri
     except DescriptionError as error:
-        context.report.warn(error.at, f"{error.what}; this <{node.tag}> is left out")
+        context.report.warn(error.at, f"{error.what}; this <{node.tag}> is left out", error.id)
         return None, uri
 
 
@@ -102,7 +106,7 @@ def _trajectories(script: XmlNode, context: Context) -> tuple[Trajectory, ...]:
     for number, node in enumerate(script.all("trajectory")):
         id_text = node.attribute("id") or str(number)
         if not id_text.isdecimal():
-            report.warn(node.at, f"<trajectory id={id_text!r}> needs a number; {number} is used")
+            report.warn(node.at, f"<trajectory id={id_text!r}> needs a number; {number} is used", "invalid-value")
             id_text = str(number)
         tension = _tension(node, context)
         waypoints = [_waypoint(child, context) for child in node.all("waypoint")]
@@ -125,7 +129,7 @@ def _tension(node: XmlNode, context: Context) -> float:
         tension = -1.0
     if 0.0 <= tension <= 1.0:
         return tension
-    context.report.warn(node.at, f"<trajectory tension={text!r}> needs 0 to 1; 0 is used")
+    context.report.warn(node.at, f"<trajectory tension={text!r}> needs 0 to 1; 0 is used", "out-of-range")
     return 0.0
 
 

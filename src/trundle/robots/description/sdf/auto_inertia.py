@@ -27,14 +27,22 @@ def inertial_of_collisions(link: Link, node: XmlNode, context: Context) -> Inert
     for collision, child in zip(link.collisions, node.all("collision"), strict=True):
         properties = volume_and_moments(collision.geometry)
         if properties is None:
-            report.warn(collision.at, f"collision {collision.name!r}: no automatic inertia for its shape; it weighs 0")
+            report.warn(
+                collision.at,
+                f"collision {collision.name!r}: no automatic inertia for its shape; it weighs 0",
+                "auto-inertia",
+            )
             continue
         volume, per_mass = properties
         mass = volume * child.number("density", default=overall)
         bodies.append((mass, _pose(collision), (per_mass[0] * mass, per_mass[1] * mass, per_mass[2] * mass)))
     total = sum(mass for mass, _, _ in bodies)
     if not total > 0.0:
-        report.warn(node.at, f"link {link.name!r}: no collision for an automatic inertia; 1 kg and 1 kg·m² are used")
+        report.warn(
+            node.at,
+            f"link {link.name!r}: no collision for an automatic inertia; 1 kg and 1 kg·m² are used",
+            "auto-inertia",
+        )
         return Inertial()
     return _combined(bodies, link.inertial.mass if inertial.find("mass") is not None else total)
 

@@ -52,7 +52,9 @@ def read_cameras(sensor: XmlNode, type_: str, context: Context) -> tuple[CameraO
     nodes = sensor.all("camera")
     if not nodes:
         context.report.warn(
-            sensor.at, f"sensor {sensor.attribute('name')!r} has no <camera>; SDF's default one is used"
+            sensor.at,
+            f"sensor {sensor.attribute('name')!r} has no <camera>; SDF's default one is used",
+            "incomplete-element",
         )
         return (_with_lens(CameraOptics(), None, type_, context),)
     if type_ == "multicamera":
@@ -60,7 +62,7 @@ def read_cameras(sensor: XmlNode, type_: str, context: Context) -> tuple[CameraO
         for i, node in enumerate(nodes):
             name = node.attribute("name") or f"camera_{i}"
             if name in named:
-                context.report.warn(node.at, f"a second camera {name!r}; it is renamed '{name}_{i}'")
+                context.report.warn(node.at, f"a second camera {name!r}; it is renamed '{name}_{i}'", "duplicate-name")
                 name = f"{name}_{i}"
             named[name] = replace(_read(node, type_, context), name=name)
         return tuple(named.values())
@@ -124,7 +126,9 @@ def _distortion(node: XmlNode | None, context: Context) -> Distortion:
     node.report_unread(report)
     if max(map(abs, (k1, k2, k3, p1, p2, *(point or ())))) > _MAX_COEFFICIENT:
         report.warn(
-            node.at, f"coefficients and a center beyond {_MAX_COEFFICIENT:g} are not possible; no distortion is used"
+            node.at,
+            f"coefficients and a center beyond {_MAX_COEFFICIENT:g} are not possible; no distortion is used",
+            "out-of-range",
         )
         return Distortion()
     return Distortion(
@@ -156,7 +160,9 @@ def _one_of(node: XmlNode, tag: str, choices: tuple[str, ...], context: Context)
     """Return a child's text in lower case, or the first choice with a warning if it is none of them."""
     value = node.string(tag).lower() or choices[0]
     if value not in choices:
-        context.report.warn(node.at, f"no {tag} {value!r}: {', '.join(choices)}; {choices[0]} is used")
+        context.report.warn(
+            node.at, f"no {tag} {value!r}: {', '.join(choices)}; {choices[0]} is used", "unknown-choice"
+        )
         return choices[0]
     return value
 
@@ -167,19 +173,27 @@ def _repaired(optics: CameraOptics, node: XmlNode, type_: str, context: Context)
     width, height, fov = optics.width_px, optics.height_px, optics.horizontal_fov_rad
     if not (0 < width <= _MAX_SIDE_PX and 0 < height <= _MAX_SIDE_PX and width * height <= _MAX_PX):
         size = f"{default.width_px} x {default.height_px}"
-        report.warn(node.at, f"a camera of {width} x {height} pixels is not possible; {size} is used")
+        report.warn(node.at, f"a camera of {width} x {height} pixels is not possible; {size} is used", "out-of-range")
         optics = replace(optics, width_px=default.width_px, height_px=default.height_px)
     max_fov = math.tau + 1e-3 if type_ in WIDE else _MAX_PINHOLE_RAD
     if not _MIN_PINHOLE_RAD <= fov <= max_fov:
         default_fov = default.horizontal_fov_rad
-        report.warn(node.at, f"horizontal_fov {fov:g} rad is not possible; {default_fov:g} is used")
+        report.warn(node.at, f"horizontal_fov {fov:g} rad is not possible; {default_fov:g} is used", "out-of-range")
         optics = replace(optics, horizontal_fov_rad=default_fov)
     if not 1.0 / _MAX_CLIP_M <= optics.near_m < optics.far_m <= _MAX_CLIP_M:
-        report.warn(node.at, f"clip near {optics.near_m:g}, far {optics.far_m:g} shows nothing; 0.1 and 100 are used")
+        report.warn(
+            node.at,
+            f"clip near {optics.near_m:g}, far {optics.far_m:g} shows nothing; 0.1 and 100 are used",
+            "out-of-range",
+        )
         optics = replace(optics, near_m=default.near_m, far_m=default.far_m)
     near, far = optics.depth_near_m, optics.depth_far_m
     if near is not None and far is not None and not 0.0 <= near < far <= _MAX_CLIP_M:
-        report.warn(node.at, f"depth clip near {near:g}, far {far:g} shows nothing; the camera's own clip is used")
+        report.warn(
+            node.at,
+            f"depth clip near {near:g}, far {far:g} shows nothing; the camera's own clip is used",
+            "out-of-range",
+        )
         optics = replace(optics, depth_near_m=None, depth_far_m=None)
     return optics
 
@@ -219,17 +233,17 @@ def _lens(node: XmlNode | None, context: Context) -> Lens:
         )
         if fun not in ("tan", "sin", "id") or not is_lens:
             requirement = "a lens needs fun tan, sin or id, and c1, c2 and f neither 0 nor huge"
-            report.warn(custom.at, f"{requirement}; tan is used alone")
+            report.warn(custom.at, f"{requirement}; tan is used alone", "out-of-range")
             c1, c2, c3, f, fun = 1.0, 1.0, 0.0, 1.0, "tan"
     elif type_ in _LENSES:
         (c1, c2, fun), c3, f = _LENSES[type_], 0.0, 1.0
     else:
         types = ", ".join([*_LENSES, "custom"])
-        report.warn(node.at, f"no lens {type_!r}: {types}; stereographic is used")
+        report.warn(node.at, f"no lens {type_!r}: {types}; stereographic is used", "unknown-choice")
         (c1, c2, fun), c3, f = _LENSES["stereographic"], 0.0, 1.0
     face = node.integer("env_texture_size", default=256)
     if not 16 <= face <= 4096:
-        report.warn(node.at, f"env_texture_size {face} is not possible; 256 is used")
+        report.warn(node.at, f"env_texture_size {face} is not possible; 256 is used", "out-of-range")
         face = 256
     return Lens(
         c1=c1,
@@ -254,10 +268,16 @@ def _intrinsics(node: XmlNode | None, context: Context) -> PixelIntrinsics | Non
     node.report_unread(report)
     shortest, longest = _FOCAL_RANGE_PX
     if not (shortest <= fx <= longest and shortest <= fy <= longest):
-        report.warn(node.at, f"focal lengths of {fx:g} and {fy:g} pixels are not possible; horizontal_fov is used")
+        report.warn(
+            node.at,
+            f"focal lengths of {fx:g} and {fy:g} pixels are not possible; horizontal_fov is used",
+            "out-of-range",
+        )
         return None
     if max(abs(cx), abs(cy), abs(skew)) > _MAX_OFFSET_PX:
-        report.warn(node.at, f"cx {cx:g}, cy {cy:g}, s {skew:g} pixels show nothing; horizontal_fov is used")
+        report.warn(
+            node.at, f"cx {cx:g}, cy {cy:g}, s {skew:g} pixels show nothing; horizontal_fov is used", "out-of-range"
+        )
         return None
     return PixelIntrinsics(fx=fx, fy=fy, cx=cx, cy=cy, skew=skew)
 

@@ -31,7 +31,9 @@ def _temperature(node: XmlNode, report: Diagnostics) -> float | None:
     temperature = node.number("temperature", default=0.0)
     if 0.0 <= temperature <= _MAX_TEMPERATURE:
         return temperature
-    report.warn(node.at, f"a temperature of {temperature:g} K is not possible; it is as warm as the air")
+    report.warn(
+        node.at, f"a temperature of {temperature:g} K is not possible; it is as warm as the air", "out-of-range"
+    )
     return None
 
 
@@ -61,5 +63,5 @@ def _label(node: XmlNode, report: Diagnostics) -> int:
     label = node.integer("label", default=0)
     if 0 <= label <= _MAX_LABEL:
         return label
-    report.warn(node.at, f"label {label} is not between 0 and {_MAX_LABEL}; 0 is used")
+    report.warn(node.at, f"label {label} is not between 0 and {_MAX_LABEL}; 0 is used", "out-of-range")
     return 0

@@ -56,7 +56,7 @@ def warn_ignored(node: XmlNode, tags: Iterable[str], why: str, context: Context)
         child, key = node.find(tag), (node.at.file, node.tag, tag)
         if child is not None and key not in context.ignored:
             context.ignored.add(key)
-            context.report.info(child.at, f"<{tag}> in <{node.tag}> {why}; it is ignored")
+            context.report.info(child.at, f"<{tag}> in <{node.tag}> {why}; it is ignored", "ignored-element")
 
 
 def read_bits(node: XmlNode, tag: str, *, default: int = EVERY_BIT) -> int:
@@ -82,7 +82,7 @@ def read_pose(node: XmlNode, context: Context) -> RawPose:
     if context.version < (1, 7):
         relative_to = relative_to if frame is None else frame
     elif frame:
-        context.report.warn(child.at, f"<pose frame={frame!r}> is ignored: SDF 1.7 calls it relative_to")
+        context.report.warn(child.at, f"<pose frame={frame!r}> is ignored: SDF 1.7 calls it relative_to", "pose-frame")
     return RawPose(_numbers(child, context), relative_to or None, child.at)
 
 
@@ -95,7 +95,7 @@ def _numbers(child: XmlNode, context: Context) -> Pose:
         x, y, z, qx, qy, qz, qw = values
         length = math.hypot(qw, qx, qy, qz)
         if length == 0.0:
-            context.report.warn(child.at, "<pose>: a quaternion of zero length; no rotation is used")
+            context.report.warn(child.at, "<pose>: a quaternion of zero length; no rotation is used", "zero-vector")
             return Pose((x, y, z))
         return Pose((x, y, z), (qw / length, qx / length, qy / length, qz / length))
     if not degrees:

@@ -28,7 +28,11 @@ def read_physics(world: XmlNode, context: Context) -> PhysicsSettings:
     node = node or (profiles[0] if profiles else None)
     for other in profiles:
         if other is not node:
-            report.info(other.at, f"physics profile {other.attribute('name')!r} is not the default one; it is not used")
+            report.info(
+                other.at,
+                f"physics profile {other.attribute('name')!r} is not the default one; it is not used",
+                "physics-profile",
+            )
     gravity_parent = node if node is not None and node.find("gravity") is not None else world
     if node is None:
         return PhysicsSettings(gravity=world.vector("gravity", default=default.gravity))
@@ -36,7 +40,9 @@ def read_physics(world: XmlNode, context: Context) -> PhysicsSettings:
     world.find("gravity")
     step = _step(node, context)
     if not 1e-6 <= step <= 1.0:
-        report.warn(node.at, f"a step of {step:g} s is not possible; {default.max_step_size_s:g} is used")
+        report.warn(
+            node.at, f"a step of {step:g} s is not possible; {default.max_step_size_s:g} is used", "out-of-range"
+        )
         step = default.max_step_size_s
     rate_tag = "update_rate" if context.version < (1, 4) else "real_time_update_rate"
     rate = node.number(rate_tag, default=default.real_time_update_rate_hz)
@@ -48,7 +54,7 @@ def read_physics(world: XmlNode, context: Context) -> PhysicsSettings:
         context,
     )
     if (node.attribute("type") or "ode") != "ode":
-        report.info(node.at, f"physics of type {node.attribute('type')!r}: the engine here is MuJoCo")
+        report.info(node.at, f"physics of type {node.attribute('type')!r}: the engine here is MuJoCo", "physics-engine")
     node.attributes()
     node.report_unread(report)
     return PhysicsSettings(
@@ -129,7 +135,7 @@ def read_spherical_coordinates(world: XmlNode, context: Context) -> SphericalCoo
         world_frame_orientation=node.string("world_frame_orientation") or default.world_frame_orientation,
     )
     if abs(coordinates.elevation) > _MAX_ELEVATION_M:
-        report.warn(node.at, f"an elevation of {coordinates.elevation:g} m is not possible; 0 is used")
+        report.warn(node.at, f"an elevation of {coordinates.elevation:g} m is not possible; 0 is used", "out-of-range")
         coordinates = replace(coordinates, elevation=0.0)
     node.report_unread(report)
     return coordinates
@@ -142,7 +148,7 @@ def read_atmosphere(world: XmlNode, context: Context) -> Atmosphere:
         return Atmosphere()
     report, default, default_type = context.report, Atmosphere(), "adiabatic"
     if (node.attribute("type") or default_type) != default_type:
-        report.warn(node.at, f"no atmosphere type {node.attribute('type')!r}; {default_type} is used")
+        report.warn(node.at, f"no atmosphere type {node.attribute('type')!r}; {default_type} is used", "unknown-choice")
     air = Atmosphere(
         temperature=node.number("temperature", default=default.temperature),
         pressure=node.number("pressure", default=default.pressure),
@@ -151,6 +157,6 @@ def read_atmosphere(world: XmlNode, context: Context) -> Atmosphere:
     node.report_unread(report)
     if not _MIN_TEMPERATURE <= air.temperature <= _MAX_TEMPERATURE or not 0.0 < air.pressure <= _MAX_PRESSURE:
         fault = f"air of {air.temperature:g} K and {air.pressure:g} Pa is not possible"
-        report.warn(node.at, f"{fault}; {default.temperature:g} K and {default.pressure:g} Pa are used")
+        report.warn(node.at, f"{fault}; {default.temperature:g} K and {default.pressure:g} Pa are used", "out-of-range")
         return default
     return air

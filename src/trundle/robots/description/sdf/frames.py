@@ -116,7 +116,7 @@ class FrameGraph(Struct):
             message = (
                 f"no frame {raw.relative_to!r}; frames here: {self.names()}; the pose is read relative to {name!r}"
             )
-            self.report.warn(raw.at or at, message)
+            self.report.warn(raw.at or at, message, "missing-frame")
             return raw.pose
         return self.pose(name).inverse() @ self.pose(raw.relative_to) @ raw.pose
 
@@ -167,4 +167,6 @@ class FrameGraph(Struct):
         return None if link is None else f"{model}::{link}"
 
     def _report_cycle(self, name: str, why: str, entry: _Entry) -> None:
-        self.report.warn(entry.raw.at or entry.at, f"frame {name!r}: {why}; {self.root} is taken instead")
+        self.report.warn(
+            entry.raw.at or entry.at, f"frame {name!r}: {why}; {self.root} is taken instead", "missing-frame"
+        )

@@ -33,12 +33,12 @@ def read_geometry(owner: XmlNode, context: Context) -> Geometry:
     node = owner.find("geometry")
     report = context.report
     if node is None:
-        report.warn(owner.at, f"<{owner.tag}> without <geometry>; it has no shape")
+        report.warn(owner.at, f"<{owner.tag}> without <geometry>; it has no shape", "incomplete-element")
         return Empty()
     geometry: Geometry = Empty()
     for tag in _UNSUPPORTED:
         if node.find(tag) is not None:
-            report.warn(node.at, f"<{tag}> is not supported; this <{owner.tag}> has no shape")
+            report.warn(node.at, f"<{tag}> is not supported; this <{owner.tag}> has no shape", "unsupported-shape")
     polylines = node.all("polyline")
     if polylines:
         geometry = _polyline(polylines, context)
@@ -49,7 +49,7 @@ def read_geometry(owner: XmlNode, context: Context) -> Geometry:
             shape.report_unread(report)
             break
     if geometry == Empty() and node.find("empty") is None and not list(node.children):
-        report.warn(node.at, f"<geometry> names no shape; this <{owner.tag}> has none")
+        report.warn(node.at, f"<geometry> names no shape; this <{owner.tag}> has none", "incomplete-element")
     node.report_unread(report)
     return geometry
 
@@ -87,7 +87,7 @@ def _plane(shape: XmlNode, context: Context) -> Plane:
     written = shape.vector("normal", default=(0.0, 0.0, 1.0), limit=MAX_LENGTH)
     normal = normalized(written)
     if normal is None:
-        context.report.warn(shape.at, "<plane> with a normal of zero length; 0 0 1 is used")
+        context.report.warn(shape.at, "<plane> with a normal of zero length; 0 0 1 is used", "zero-vector")
         normal = (0.0, 0.0, 1.0)
     size = shape.find("size")
     values = None if size is None else size.as_numbers(2, fallback="1 1 is used", limit=MAX_LENGTH)
@@ -97,7 +97,7 @@ def _plane(shape: XmlNode, context: Context) -> Plane:
 def _mesh(shape: XmlNode, context: Context) -> Geometry:
     uri = shape.string("uri") or shape.string("filename") or shape.attribute("filename")  # the attribute of SDF 1.0
     if not uri:
-        context.report.warn(shape.at, "<mesh> without <uri>; it has no shape")
+        context.report.warn(shape.at, "<mesh> without <uri>; it has no shape", "incomplete-element")
         return Empty()
     scale = shape.vector("scale", default=(1.0, 1.0, 1.0), limit=MAX_LENGTH)
     part = shape.find("submesh")
@@ -107,7 +107,9 @@ def _mesh(shape: XmlNode, context: Context) -> Geometry:
     if path is not None and is_stand_in(path):
         model = uri.removeprefix("model://").partition("/")[0]
         context.report.info(
-            shape.at, f"model://{model} is not on GAZEBO_MODEL_PATH; plain shapes of about its size are used"
+            shape.at,
+            f"model://{model} is not on GAZEBO_MODEL_PATH; plain shapes of about its size are used",
+            "stand-in-model",
         )
     return MeshFile(path=path, uri=uri, scale=scale, submesh=name or None, center_submesh=center)
 
@@ -115,7 +117,7 @@ def _mesh(shape: XmlNode, context: Context) -> Geometry:
 def _heightmap(shape: XmlNode, context: Context) -> Geometry:
     uri, report = shape.string("uri"), context.report
     if not uri:
-        report.warn(shape.at, "<heightmap> without <uri>; it has no shape")
+        report.warn(shape.at, "<heightmap> without <uri>; it has no shape", "incomplete-element")
         return Empty()
     warn_ignored(shape, ("use_terrain_paging",), "does not apply: terrain is kept in memory", context)
     return Heightmap(
@@ -148,7 +150,7 @@ def _layers(shape: XmlNode, context: Context) -> tuple[TerrainLayer, ...]:
         blend.report_unread(report)
     if len(blends) > max(len(layers) - 1, 0):
         message = f"<heightmap> has {len(layers)} <texture> and {len(blends)} <blend>; the last ones are left out"
-        report.warn(blends[-1].at, message)
+        report.warn(blends[-1].at, message, "heightmap-blends")
     return tuple(layers)
 
 
@@ -173,7 +175,7 @@ def _path(uri: str, shape: XmlNode, context: Context, otherwise: str) -> Path | 
     try:
         return context.packages.resolve(uri, folder=context.folder, at=shape.at)
     except DescriptionError as error:
-        context.report.warn(error.at, f"{error.what}; {otherwise}")
+        context.report.warn(error.at, f"{error.what}; {otherwise}", error.id)
         return None
 
 

@@ -32,7 +32,7 @@ def open_include(node: XmlNode, context: Context) -> tuple[XmlNode, Context] | N
     report = context.report
     uri = node.string("uri") or (node.attribute("filename") or "")
     if not uri:
-        report.warn(node.at, "<include> without <uri>; it is left out")
+        report.warn(node.at, "<include> without <uri>; it is left out", "incomplete-element")
         return None
     try:
         path = context.packages.resolve(uri, folder=context.folder, at=node.at)
@@ -42,7 +42,12 @@ def open_include(node: XmlNode, context: Context) -> tuple[XmlNode, Context] | N
         raise error.through(map(str, context.including)) from None
     except (DescriptionError, UsageError) as error:
         elsewhere = isinstance(error, DescriptionError) and error.at != node.at
-        report.warn_error(error, node.at, f"the <include>{f' on line {node.at.line}' if elsewhere else ''} is left out")
+        report.warn_error(
+            error,
+            node.at,
+            f"the <include>{f' on line {node.at.line}' if elsewhere else ''} is left out",
+            "missing-model",
+        )
         return None
 
 
@@ -54,14 +59,16 @@ def read_included_model(
         try:
             robot = inner.read_urdf(inner.including[-1], root)
         except DescriptionError as error:
-            inner.report.warn(error.at, f"{error.what}; the <include> is left out")
+            inner.report.warn(error.at, f"{error.what}; the <include> is left out", error.id)
             return None
         return _with_overrides(_robot(robot, inner), node, context)
     models = root.all("model")
     if not models:
         return None
     if len(models) > 1:
-        inner.report.warn(models[1].at, "a second <model> in the file; an <include> takes the first")
+        inner.report.warn(
+            models[1].at, "a second <model> in the file; an <include> takes the first", "duplicate-element"
+        )
     apply_params(node, models[0], context.report)
     part = read_model(models[0], inner)
     return _with_overrides(part, node, context)
@@ -85,12 +92,14 @@ def _with_overrides(part: UnplacedModel, node: XmlNode, context: Context) -> Unp
 
 def _root(file: Path, node: XmlNode, context: Context) -> tuple[XmlNode, Context]:
     if file.resolve() in context.including or len(context.including) > _DEEPEST_INCLUDE:
-        raise DescriptionError(node.at, f"{file} includes itself")
+        raise DescriptionError(node.at, f"{file} includes itself", "include-cycle")
     root = read_xml(file, report=context.report, max_depth=DEEPEST, budget=context.budget, at=node.at)
     if root.tag == "robot":
         return root, context.for_include(file, context.version)
     if root.tag != "sdf":
-        raise DescriptionError(root.at, f"<{root.tag}> starts neither an SDF (<sdf>) nor a URDF (<robot>)")
+        raise DescriptionError(
+            root.at, f"<{root.tag}> starts neither an SDF (<sdf>) nor a URDF (<robot>)", "wrong-root"
+        )
     version = read_version(root, context.report)
     name_missing_attributes(root, version, context.report)
     return root, context.for_include(file, version)

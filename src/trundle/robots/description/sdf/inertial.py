@@ -22,6 +22,7 @@ def read_inertial(link: XmlNode, name: str, context: Context) -> Inertial:
         report.info(
             node.at,
             f"link {name!r}: {mass:g} kg without <inertia>; SDF's default of 1 kg·m² is used, rarely intended",
+            "default-inertia",
         )
         node.report_unread(report)
         return Inertial(mass=mass, link_from_com=pose)

@@ -43,11 +43,11 @@ def _logical_camera(node: XmlNode, context: Context) -> LogicalCamera:
     ratio = node.number("aspect_ratio", default=default.aspect_ratio)
     fov = node.number("horizontal_fov", default=default.horizontal_fov_rad)
     if not 0.0 <= near < far:
-        report.warn(node.at, f"near {near:g}, far {far:g} is not possible; 0 and 1 are used")
+        report.warn(node.at, f"near {near:g}, far {far:g} is not possible; 0 and 1 are used", "out-of-range")
         near, far = default.near_m, default.far_m
     if not 0.0 < fov < math.pi or not ratio > 0.0:
         fault = f"horizontal_fov {fov:g} rad with aspect_ratio {ratio:g}"
-        report.warn(node.at, f"{fault} is not possible; 1 and 1 are used")
+        report.warn(node.at, f"{fault} is not possible; 1 and 1 are used", "out-of-range")
         fov, ratio = default.horizontal_fov_rad, default.aspect_ratio
     return LogicalCamera(near_m=near, far_m=far, aspect_ratio=ratio, horizontal_fov_rad=fov)
 
@@ -59,11 +59,11 @@ def _sonar(node: XmlNode, context: Context) -> Sonar:
     max_m = node.number("max", default=default.max_m)
     radius = node.number("radius", default=default.radius)
     if geometry not in ("cone", "sphere"):
-        report.warn(node.at, f"no sonar geometry {geometry!r}: cone or sphere; cone is used")
+        report.warn(node.at, f"no sonar geometry {geometry!r}: cone or sphere; cone is used", "unknown-choice")
         geometry = default.geometry
     if not (0.0 <= min_m < max_m and radius > 0.0):
         fault = f"a sonar from {min_m:g} to {max_m:g} m of radius {radius:g} m"
-        report.warn(node.at, f"{fault} is not possible; one from 0 to 1 m of radius 0.5 m is used")
+        report.warn(node.at, f"{fault} is not possible; one from 0 to 1 m of radius 0.5 m is used", "out-of-range")
         return Sonar(geometry=geometry)
     return Sonar(geometry=geometry, min_m=min_m, max_m=max_m, radius=radius)
 
@@ -72,7 +72,9 @@ def _transceiver(node: XmlNode, context: Context) -> Transceiver:
     report, default = context.report, Transceiver()
     frequency = node.number("frequency", default=default.frequency_mhz)
     if not frequency > 0.0:
-        report.warn(node.at, f"a frequency of {frequency:g} MHz is not possible; 1 is used, as in Gazebo")
+        report.warn(
+            node.at, f"a frequency of {frequency:g} MHz is not possible; 1 is used, as in Gazebo", "out-of-range"
+        )
         frequency = 1.0
     return Transceiver(
         essid=node.string("essid") or default.essid,

@@ -61,7 +61,7 @@ def read_joint(
     )
     physics = node.find("physics")
     if physics is not None and [child.tag for child in physics.children] != ["provide_feedback"]:
-        report.info(physics.at, f"joint {name!r}: <physics> tunes Gazebo's engines; it is ignored")
+        report.info(physics.at, f"joint {name!r}: <physics> tunes Gazebo's engines; it is ignored", "engine-tuning")
     node.report_unread(report)
     return joint
 
@@ -78,7 +78,7 @@ def _thread_pitch(node: XmlNode) -> float:
 def _read_axis(node: XmlNode | None, joint: XmlNode, frame: FrameOf, root: str, context: Context) -> JointAxis:
     report, name = context.report, joint.required_attribute("name")
     if node is None:
-        report.warn(joint.at, f"joint {name!r} has no <axis>; 0 0 1 is used, without limits")
+        report.warn(joint.at, f"joint {name!r} has no <axis>; 0 0 1 is used, without limits", "missing-axis")
         return JointAxis(direction=_in_model("", (0.0, 0.0, 1.0), frame))
     unit = _unit(node, name, context)
     direction = _in_model(_expressed_in(node, name, frame, root, context), unit, frame)
@@ -106,7 +106,9 @@ def _read_axis(node: XmlNode | None, joint: XmlNode, frame: FrameOf, root: str, 
         mimic=_mimic(node, context),
     )
     if axis.initial_position:
-        report.info(node.at, f"joint {name!r} starts at its <initial_position>, which Gazebo ignores")
+        report.info(
+            node.at, f"joint {name!r} starts at its <initial_position>, which Gazebo ignores", "initial-position"
+        )
     for element in (node, limit, dynamics):
         if element is not None:
             element.report_unread(report)
@@ -133,7 +135,7 @@ def _unit(node: XmlNode, name: str, context: Context) -> Vector3:
     """Return the axis direction as written, normalised."""
     unit = normalized(node.vector("xyz", default=(0.0, 0.0, 1.0)))
     if unit is None:
-        context.report.warn(node.at, f"joint {name!r}: an axis of zero length; 0 0 1 is used")
+        context.report.warn(node.at, f"joint {name!r}: an axis of zero length; 0 0 1 is used", "zero-vector")
     return unit or (0.0, 0.0, 1.0)
 
 
@@ -148,13 +150,19 @@ def _expressed_in(node: XmlNode, name: str, frame: FrameOf, root: str, context: 
     written = (None if xyz is None else xyz.attribute("expressed_in")) or ""
     if context.version < (1, 7):
         if context.version < (1, 5):
-            report.info(node.at, f"SDF {context.version}: the axis of joint {name!r} is read in the model frame")
+            report.info(
+                node.at, f"SDF {context.version}: the axis of joint {name!r} is read in the model frame", "axis-frame"
+            )
         if node.flag("use_parent_model_frame", default=context.version < (1, 5)):
             if written not in ("", root):
-                report.warn(node.at, f"joint {name!r}: its axis is read in the model frame, not in {written!r}")
+                report.warn(
+                    node.at, f"joint {name!r}: its axis is read in the model frame, not in {written!r}", "axis-frame"
+                )
             return root
     if frame(written) is None:
-        report.warn(node.at, f"joint {name!r}: no frame {written!r}; its axis is read in the joint's own frame")
+        report.warn(
+            node.at, f"joint {name!r}: no frame {written!r}; its axis is read in the joint's own frame", "missing-frame"
+        )
         return ""
     return written
 

@@ -19,7 +19,9 @@ def read_light(node: XmlNode, owner: str, graph: FrameGraph, context: Context) -
     default = Light(name="", type="point", at=node.at)
     type_name = node.attribute("type") or "point"
     if type_name not in _TYPES:
-        report.warn(node.at, f"no light type {type_name!r}; types: {', '.join(_TYPES)}; point is used")
+        report.warn(
+            node.at, f"no light type {type_name!r}; types: {', '.join(_TYPES)}; point is used", "unknown-choice"
+        )
     direction = normalized(node.vector("direction", default=default.direction))
     attenuation, spot = node.find("attenuation"), node.find("spot")
 
@@ -45,7 +47,7 @@ def read_light(node: XmlNode, owner: str, graph: FrameGraph, context: Context) -
         cast_shadows=node.flag("cast_shadows", default=False),
     )
     if not node.flag("light_on", default=True):
-        report.info(node.at, f"light {light.name!r} is off")
+        report.info(node.at, f"light {light.name!r} is off", "light-off")
         light = replace(light, intensity=0.0)
     warn_ignored(node, ("visualize",), "has no effect: lights are not drawn", context)
     for element in (node, attenuation, spot):

@@ -54,13 +54,17 @@ def _albedo(material: XmlNode, context: Context) -> Path | None:
     image = None if flow is None else flow.find("albedo_map")
     others = [] if flow is None else [f"<{child.tag}>" for child in flow.unread()]
     if others:
-        report.info(pbr.at, f"<pbr>: {', '.join(sorted(set(others)))} is for other renderers; it is not drawn")
+        report.info(
+            pbr.at,
+            f"<pbr>: {', '.join(sorted(set(others)))} is for other renderers; it is not drawn",
+            "ignored-element",
+        )
     if image is None or not image.text:
         return None
     try:
         return context.packages.resolve(image.text, folder=context.folder, at=image.at)
     except DescriptionError as error:
-        report.warn(error.at, f"{error.what}; the texture is left out")
+        report.warn(error.at, f"{error.what}; the texture is left out", error.id)
         return None
 
 
@@ -75,13 +79,17 @@ def named_material(name: str, node: XmlNode, context: Context) -> Material:
     if scripted is not None:
         return scripted
     if name in TEXTURE_COLORS:
-        context.report.info(node.at, f"material {name!r} has a texture that only Gazebo ships; Trundle draws its own")
+        context.report.info(
+            node.at, f"material {name!r} has a texture that only Gazebo ships; Trundle draws its own", "stock-texture"
+        )
         return Material(ambient=_WHITE, diffuse=_WHITE, named_texture=name)
     if name in PLAIN:
         r, g, b = PLAIN[name]
-        context.report.info(node.at, f"material {name!r} has a texture that only Gazebo ships; a plain color is used")
+        context.report.info(
+            node.at, f"material {name!r} has a texture that only Gazebo ships; a plain color is used", "stock-texture"
+        )
         return Material(ambient=(r, g, b, 1.0), diffuse=(r, g, b, 1.0))
-    context.report.warn(node.at, f"no material {name!r}; grey is used")
+    context.report.warn(node.at, f"no material {name!r}; grey is used", "missing-material")
     return GREY
 
 
@@ -94,7 +102,9 @@ def read_color(node: XmlNode, tag: str, default: Rgba, context: Context) -> Rgba
     if len(values) == 3:
         values.append(1.0)
     if len(values) != 4:
-        context.report.warn(child.at, f"<{tag}> needs r g b a, got {child.text!r}; the default is used")
+        context.report.warn(
+            child.at, f"<{tag}> needs r g b a, got {child.text!r}; the default is used", "invalid-value"
+        )
         return default
     r, g, b, a = (min(max(v, 0.0), 1.0) for v in values)
     return (r, g, b, a)

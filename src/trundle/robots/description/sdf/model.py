@@ -30,7 +30,7 @@ def read_model(node: XmlNode, context: Context, depth: int = 0) -> UnplacedModel
         DescriptionError: a name is missing, a joint names an unknown link, or models are nested too deeply.
     """
     if depth > _DEEPEST:
-        raise DescriptionError(node.at, f"models nested more than {_DEEPEST} deep")
+        raise DescriptionError(node.at, f"models nested more than {_DEEPEST} deep", "too-large")
     name = node.required_attribute("name")
     graph = FrameGraph(MODEL, context.report)
     links = placed_links(node.all("link"), graph, context)
@@ -58,10 +58,12 @@ def read_model(node: XmlNode, context: Context, depth: int = 0) -> UnplacedModel
         model = merged_model.merge_into(model, graph)
     model = replace(model, canonical_link=graph.canonical_link)
     if model.canonical_link is None and not model.static:
-        context.report.warn(node.at, f"model {name!r} has no links and cannot move")
+        context.report.warn(node.at, f"model {name!r} has no links and cannot move", "no-links")
     raw = read_pose(node, context)
     if node.attribute("namespace"):
-        context.report.info(node.at, f"attribute 'namespace' of model {name!r} is not supported; it is ignored")
+        context.report.info(
+            node.at, f"attribute 'namespace' of model {name!r} is not supported; it is ignored", "unsupported-attribute"
+        )
     placement = node.attribute("placement_frame") or ""
     node.report_unread(context.report)
     return UnplacedModel(model=model, scope=graph.scope(), raw=raw, placement_frame=placement)
@@ -74,7 +76,7 @@ def placed_links(nodes: Iterable[XmlNode], graph: FrameGraph, context: Context) 
         name = child.required_attribute("name")
         if name in graph:
             after = f", after line {links[name].at.line}" if name in links else ""
-            context.report.warn(child.at, f"a second link {name!r}{after}; it is left out")
+            context.report.warn(child.at, f"a second link {name!r}{after}; it is left out", "duplicate-name")
             child.mark_all_read()
             continue
         links[name] = child
@@ -97,7 +99,9 @@ def _nested(
                 child, root, inner, context, lambda model, within: read_model(model, within, depth + 1)
             )
             if included is None:
-                context.report.warn(child.at, "no <model> in the included file; it is left out")
+                context.report.warn(
+                    child.at, "no <model> in the included file; it is left out", "include-without-model"
+                )
                 continue
             part = included
         else:
@@ -105,7 +109,9 @@ def _nested(
         if part.merge:
             merged.append(merge_model(part, graph))
         elif any(part.model.name == other.model.name for other in parts):
-            context.report.warn(part.model.at, f"a second nested model {part.model.name!r}; it is left out")
+            context.report.warn(
+                part.model.at, f"a second nested model {part.model.name!r}; it is left out", "duplicate-name"
+            )
         else:
             part.add_to(graph)
             parts.append(part)
@@ -120,7 +126,7 @@ def read_frames(node: XmlNode, graph: FrameGraph, context: Context) -> list[Fram
     for child in node.all("frame"):
         name = child.required_attribute("name")
         if name in graph:
-            context.report.warn(child.at, f"the name {name!r} is taken; this <frame> is left out")
+            context.report.warn(child.at, f"the name {name!r} is taken; this <frame> is left out", "duplicate-name")
             continue
         attached_to = child.attribute("attached_to") or graph.root
         graph.add(name, read_pose(child, context), child.at, default=attached_to, attached_to=attached_to)
@@ -141,7 +147,7 @@ def _canonical(
     if named:
         if named in graph and (link := graph.link(named)) not in (None, MODEL):
             return link
-        graph.report.warn(node.at, f"canonical_link {named!r}: no such link; the first one is taken")
+        graph.report.warn(node.at, f"canonical_link {named!r}: no such link; the first one is taken", "missing-link")
     merged_models = [merged_model.part.model for merged_model in merged]
     inner = [*(part.model for part in nested), *(model for outer in merged_models for model in outer.models)]
     first = [*links, *(link.name for model in merged_models for link in model.links)]
@@ -168,7 +174,7 @@ class JointElement:
         if type_ in TYPES:
             return True
         why = f"joint {self._name!r}: no type {type_!r}; types: {', '.join(TYPES)}"
-        graph.report.warn(self._node.at, f"{why}; as in Gazebo the joint is left out")
+        graph.report.warn(self._node.at, f"{why}; as in Gazebo the joint is left out", "unknown-choice")
         return False
 
     def _has_two_links(self, graph: FrameGraph) -> bool:
@@ -179,14 +185,16 @@ class JointElement:
             elif end != WORLD and end not in graph:
                 why = f"{joint}: no link {end!r}; links here: {graph.names()}"
                 if "::" not in end:  # otherwise it refers to a model whose <include> was left out
-                    raise DescriptionError(self._node.at, why)
+                    raise DescriptionError(self._node.at, why, "missing-link")
             else:
                 continue
-            graph.report.warn(self._node.at, f"{why}; the joint is left out")
+            graph.report.warn(self._node.at, f"{why}; the joint is left out", "missing-link")
             return False
         parent, child = (_link(end, graph) for end in self._ends)
         if parent == child:
-            graph.report.warn(self._node.at, f"{joint} connects {parent!r} to itself; the joint is left out")
+            graph.report.warn(
+                self._node.at, f"{joint} connects {parent!r} to itself; the joint is left out", "joint-to-itself"
+            )
         return parent != child
 
     def add_to(self, graph: FrameGraph) -> None:

@@ -17,7 +17,9 @@ def read_noise(node: XmlNode | None, context: Context) -> Noise:
     report = context.report
     type_ = node.attribute("type") or node.string("type") or "gaussian"
     if type_ not in _TYPES:
-        report.warn(node.at, f"no noise type {type_!r}: {', '.join(_TYPES)}; none is used, as in Gazebo")
+        report.warn(
+            node.at, f"no noise type {type_!r}: {', '.join(_TYPES)}; none is used, as in Gazebo", "unknown-choice"
+        )
         return Noise()
     if type_ == "none":
         return Noise()
@@ -38,7 +40,7 @@ def _number(node: XmlNode, tag: str, context: Context) -> float:
     value = node.number(tag, default=0.0)
     if abs(value) <= _MAX_PARAMETER:
         return value
-    context.report.warn(node.at, f"noise with a {tag} of {value:g} is not possible; 0 is used")
+    context.report.warn(node.at, f"noise with a {tag} of {value:g} is not possible; 0 is used", "out-of-range")
     return 0.0
 
 
@@ -46,5 +48,7 @@ def _precision(node: XmlNode, context: Context) -> float:
     precision = node.number("precision", default=0.0)
     if precision == 0.0 or 1.0 / _MAX_PARAMETER <= precision <= _MAX_PARAMETER:
         return precision
-    context.report.warn(node.at, f"a precision of {precision:g} is not possible; values are not rounded")
+    context.report.warn(
+        node.at, f"a precision of {precision:g} is not possible; values are not rounded", "out-of-range"
+    )
     return 0.0

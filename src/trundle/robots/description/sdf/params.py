@@ -17,7 +17,11 @@ def apply_params(include: XmlNode, model: XmlNode, report: Diagnostics) -> None:
         for change in params.children:
             path = change.attribute("element_id")
             if path is None:
-                report.warn(change.at, f"<{change.tag}> without element_id in <experimental:params>; it is left out")
+                report.warn(
+                    change.at,
+                    f"<{change.tag}> without element_id in <experimental:params>; it is left out",
+                    "incomplete-element",
+                )
                 continue
             _change(change, model, [name for name in path.split("::") if name], report)
 
@@ -39,7 +43,11 @@ def _change(change: XmlNode, model: XmlNode, path: list[str], report: Diagnostic
             _act(action, change, element, parent, report)
         return
     name = "::".join(path)
-    report.warn(change.at, f"<experimental:params>: no <{change.tag}> {name!r} in the included model; it is left out")
+    report.warn(
+        change.at,
+        f"<experimental:params>: no <{change.tag}> {name!r} in the included model; it is left out",
+        "params-target",
+    )
 
 
 def _change_part(change: XmlNode, parent: XmlNode, report: Diagnostics) -> None:
@@ -50,7 +58,9 @@ def _change_part(change: XmlNode, parent: XmlNode, report: Diagnostics) -> None:
         return
     element = _child(parent, change.tag, change.attribute("name"))
     if element is None:
-        report.warn(change.at, f"<experimental:params>: no <{change.tag}> in <{parent.tag}>; it is left out")
+        report.warn(
+            change.at, f"<experimental:params>: no <{change.tag}> in <{parent.tag}>; it is left out", "params-target"
+        )
     elif action == "remove" and change.children:
         for part in change.children:
             if (removed := _child(element, part.tag, part.attribute("name"))) is not None:
@@ -70,7 +80,11 @@ def _act(action: str, change: XmlNode, element: XmlNode, parent: XmlNode, report
             _modify(element, change, report)
         case _:
             actions = ", ".join(_ACTIONS)
-            report.warn(change.at, f"<{change.tag}>: action {action!r} is unknown; actions: {actions}; it is left out")
+            report.warn(
+                change.at,
+                f"<{change.tag}>: action {action!r} is unknown; actions: {actions}; it is left out",
+                "unknown-choice",
+            )
 
 
 def _add(parent: XmlNode, element: XmlNode) -> None:
@@ -85,7 +99,11 @@ def _modify(element: XmlNode, change: XmlNode, report: Diagnostics) -> None:
     for part in change.children:
         inner = _child(element, part.tag, part.attribute("name"))
         if inner is None:
-            report.warn(part.at, f"<experimental:params>: no <{part.tag}> to modify in <{element.tag}>; it is left out")
+            report.warn(
+                part.at,
+                f"<experimental:params>: no <{part.tag}> to modify in <{element.tag}>; it is left out",
+                "params-target",
+            )
         else:
             _modify(inner, part, report)
 

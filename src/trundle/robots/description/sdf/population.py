@@ -36,7 +36,7 @@ def read_population(
     name = node.attribute("name") or ""
     model = node.find("model")
     if model is None:
-        report.warn(node.at, f"<population> {name!r} without <model>; it is left out")
+        report.warn(node.at, f"<population> {name!r} without <model>; it is left out", "incomplete-element")
         return []
     part = read_model(model, context)
     pose = read_pose(node, context).pose
@@ -45,7 +45,7 @@ def read_population(
     node.report_unread(report)
     context.budget.add_nodes(_NODES_OF_A_MODEL * len(positions), node.at)
     if isinstance(positions, str):
-        report.warn(node.at, f"<population> {name!r}: {positions}; it is left out")
+        report.warn(node.at, f"<population> {name!r}: {positions}; it is left out", "out-of-range")
         return []
     return [
         replace(
@@ -70,7 +70,7 @@ class _Region:
             numbers = (cylinder.number(tag, default=1.0) for tag in ("radius", "length"))
             self.round = (next(numbers), next(numbers))
         elif cylinder is not None:
-            report.warn(cylinder.at, "<cylinder> in <population> beside <box>; it is ignored")
+            report.warn(cylinder.at, "<cylinder> in <population> beside <box>; it is ignored", "duplicate-element")
         self.count = node.integer("model_count", default=1)
         self.kind, self.rows, self.columns, self.step = "random", 1, 1, (0.5, 0.5, 0.0)
         if distribution is not None:

@@ -34,6 +34,6 @@ def name_missing_attributes(root: XmlNode, version: Version, report: Diagnostics
                 value = child.attribute(attribute)
                 if value is None or not value.strip():
                     fault = f"without {attribute!r}" if value is None else f"with an empty {attribute!r}"
-                    report.warn(child.at, f"<{tag}> {fault}; Gazebo refuses the whole file")
+                    report.warn(child.at, f"<{tag}> {fault}; Gazebo refuses the whole file", "gazebo-refuses")
             if tag in _HOLDERS:
                 pending.append(child)

@@ -24,6 +24,8 @@ def read_road(node: XmlNode, context: Context) -> Road | None:
     material = read_material(node, context) if has_material else named_material(_DEFAULT, node, context)
     node.report_unread(report)
     if len(points) < 2 or not width > 0.0:
-        report.warn(node.at, f"<road> {name!r} needs two points and a width > 0 m; it is left out")
+        report.warn(
+            node.at, f"<road> {name!r} needs two points and a width > 0 m; it is left out", "incomplete-element"
+        )
         return None
     return Road(name=name, at=node.at, points=tuple(points), width=width, material=material)

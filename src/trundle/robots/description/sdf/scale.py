@@ -27,9 +27,11 @@ from trundle.spatial import Vector3
 def scaled_model(model: Model, scale: Vector3, at: Source, report: Diagnostics) -> Model:
     """Return the model with the visuals and collisions of its own links scaled, each about its centre, as in Gazebo."""
     if not all(math.isfinite(s) and s > 0.0 for s in scale):
-        report.warn(at, f"<scale> of model {model.name!r} needs three numbers > 0; the scale is 1")
+        report.warn(at, f"<scale> of model {model.name!r} needs three numbers > 0; the scale is 1", "invalid-value")
         return model
-    report.info(at, f"<scale> of model {model.name!r}: its shapes are scaled, its masses and inertias are not")
+    report.info(
+        at, f"<scale> of model {model.name!r}: its shapes are scaled, its masses and inertias are not", "scaled-model"
+    )
     return replace(model, links=tuple(_scaled_link(link, scale) for link in model.links))
 
 

@@ -48,7 +48,7 @@ def with_unique_names(sensors: Iterable[Sensor], link: str, context: Context) ->
         if name in by_name:
             number = next(i for i in count(2) if f"{name}_{i}" not in by_name)
             message = f"link {link!r} has a second sensor {name!r}; it is renamed '{name}_{number}'"
-            context.report.warn(sensor.at, message)
+            context.report.warn(sensor.at, message, "duplicate-name")
             sensor = replace(sensor, name=f"{name}_{number}")
         by_name[sensor.name] = sensor
     return tuple(by_name.values())
@@ -64,7 +64,9 @@ def _rate(node: XmlNode, context: Context) -> float:
     rate = node.number("update_rate", default=0.0)
     if rate >= 0.0:
         return rate
-    context.report.warn(node.at, f"an update_rate of {rate:g} Hz is not possible; 0 (every step) is used")
+    context.report.warn(
+        node.at, f"an update_rate of {rate:g} Hz is not possible; 0 (every step) is used", "out-of-range"
+    )
     return 0.0
 
 

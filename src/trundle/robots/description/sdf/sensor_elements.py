@@ -43,16 +43,22 @@ def read_scan(sensor: XmlNode, context: Context) -> RangeScan:
     report = context.report
     node = sensor.find("ray") or sensor.find("lidar")
     if node is None:
-        report.warn(sensor.at, f"sensor {sensor.attribute('name')!r} has no <ray>; its range is 0")
+        report.warn(
+            sensor.at, f"sensor {sensor.attribute('name')!r} has no <ray>; its range is 0", "incomplete-element"
+        )
         return RangeScan()
     scan, limits = node.find("scan"), node.find("range")
     horizontal, vertical = (_axis(scan, tag, context) for tag in ("horizontal", "vertical"))
     low = 0.0 if limits is None else max(0.0, limits.number("min", default=0.0))
     high = 0.0 if limits is None else limits.number("max", default=0.0)
     if not high > low:
-        report.warn(node.at, f"range min {low:g}, max {high:g} is empty; the sensor measures nothing")
+        report.warn(node.at, f"range min {low:g}, max {high:g} is empty; the sensor measures nothing", "out-of-range")
     if horizontal.values * vertical.values > _MAX_RAYS:
-        report.warn(node.at, f"{horizontal.values} x {vertical.values} rays are too many; one row of 640 is cast")
+        report.warn(
+            node.at,
+            f"{horizontal.values} x {vertical.values} rays are too many; one row of 640 is cast",
+            "out-of-range",
+        )
         horizontal, vertical = ScanAxis(samples=640, min_angle=-1.0, max_angle=1.0), ScanAxis()
     result = RangeScan(
         horizontal=horizontal,
@@ -90,7 +96,7 @@ def _samples(node: XmlNode, default: int, context: Context) -> int:
     samples = node.integer("samples", default=default)
     if samples > 0:
         return samples
-    context.report.warn(node.at, f"{samples} samples is not possible; 1 is used")
+    context.report.warn(node.at, f"{samples} samples is not possible; 1 is used", "out-of-range")
     return 1
 
 
@@ -98,7 +104,9 @@ def _resolution(node: XmlNode, context: Context) -> float:
     resolution = node.number("resolution", default=1.0)
     if resolution > 0.0:
         return resolution
-    context.report.warn(node.at, f"a resolution of {resolution:g} values per sample is not possible; 1 is used")
+    context.report.warn(
+        node.at, f"a resolution of {resolution:g} values per sample is not possible; 1 is used", "out-of-range"
+    )
     return 1.0
 
 
@@ -137,7 +145,11 @@ def _reference(node: XmlNode | None, context: Context) -> OrientationReference |
     node.report_unread(report)
     if localization not in _LOCALIZATIONS:
         names = ", ".join(_LOCALIZATIONS)
-        report.warn(node.at, f"no localization {localization!r}: {names}; the orientation is relative to the start")
+        report.warn(
+            node.at,
+            f"no localization {localization!r}: {names}; the orientation is relative to the start",
+            "unknown-choice",
+        )
         return None
     return reference
 
@@ -145,7 +157,9 @@ def _reference(node: XmlNode | None, context: Context) -> OrientationReference |
 def _parent(node: XmlNode | None, context: Context) -> str:
     frame = "" if node is None else node.attribute("parent_frame") or ""
     if node is not None and frame not in ("", "world"):
-        context.report.warn(node.at, f"parent_frame {frame!r} is neither 'world' nor empty; the world is used")
+        context.report.warn(
+            node.at, f"parent_frame {frame!r} is neither 'world' nor empty; the world is used", "unknown-choice"
+        )
         return "world"
     return frame
 
@@ -184,12 +198,14 @@ def read_force_torque(sensor: XmlNode, context: Context) -> ForceTorque:
         return ForceTorque(frame=default)
     frame = node.string("frame") or default
     if frame not in ("child", "parent", "sensor"):
-        context.report.warn(node.at, f"no frame {frame!r} for forces: child, parent or sensor; child is used")
+        context.report.warn(
+            node.at, f"no frame {frame!r} for forces: child, parent or sensor; child is used", "unknown-choice"
+        )
         frame = "child"
     direction = node.string("measure_direction") or "child_to_parent"
     if direction not in ("child_to_parent", "parent_to_child"):
         fault = f"no measure_direction {direction!r}: child_to_parent or parent_to_child"
-        context.report.warn(node.at, f"{fault}; child_to_parent is used")
+        context.report.warn(node.at, f"{fault}; child_to_parent is used", "unknown-choice")
     force, torque = (_axes(node, tag, None, context) for tag in ("force", "torque"))
     node.report_unread(context.report)
     return ForceTorque(frame=frame, parent_to_child=direction == "parent_to_child", force=force, torque=torque)

@@ -32,7 +32,9 @@ def apply_state(
     """Return the models and lights at the poses of the world's <state>, without the deleted ones."""
     for node in world.all("state"):
         if (node.attribute("world_name") or name) != name:
-            context.report.warn(node.at, f"<state> of world {node.attribute('world_name')!r}; this is {name!r}")
+            context.report.warn(
+                node.at, f"<state> of world {node.attribute('world_name')!r}; this is {name!r}", "state-target"
+            )
         models, lights = _applied(node, models, lights, context)
     return tuple(models), tuple(lights)
 
@@ -57,7 +59,7 @@ def _applied(
     for kind, states, parts in (("model", model_states, models), ("light", light_states, lights)):
         for name, state in states.items():
             if name not in {part.name for part in parts}:
-                report.warn(state.at, f"<state> of unknown {kind} {name!r}; it is ignored")
+                report.warn(state.at, f"<state> of unknown {kind} {name!r}; it is ignored", "state-target")
                 state.mark_all_read()
     placed_models = [
         _model_with_state(model, model_states[model.name], Pose(), context) if model.name in model_states else model
@@ -77,7 +79,9 @@ def _deleted(node: XmlNode, existing: set[str], context: Context) -> set[str]:
     names = deletions.all("name")
     for name in names:
         if name.text not in existing:
-            context.report.warn(name.at, f"<deletions> of a <state>: no model or light {name.text!r} in this world")
+            context.report.warn(
+                name.at, f"<deletions> of a <state>: no model or light {name.text!r} in this world", "state-target"
+            )
     deletions.report_unread(context.report)
     return {name.text for name in names}
 
@@ -101,7 +105,9 @@ def _model_with_state(model: Model, state: XmlNode, world_from_outer: Pose, cont
     state.report_unread(report)
     for name, link_state in links.items():
         if name not in {link.name for link in model.links}:
-            report.warn(link_state.at, f"<state> of model {model.name!r}: no link {name!r}; it is ignored")
+            report.warn(
+                link_state.at, f"<state> of model {model.name!r}: no link {name!r}; it is ignored", "state-target"
+            )
     if scale != (1.0, 1.0, 1.0):
         model = scaled_model(model, scale, state.at, report)
     world_from_model = read_pose(state, context).pose if has_pose else world_from_outer @ model.world_from_model

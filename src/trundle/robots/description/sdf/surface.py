@@ -73,4 +73,6 @@ def _name_tuning(node: XmlNode, context: Context) -> None:
     for tag in _TUNING:
         child = node.find(tag)
         if child is not None and (child.children or child.text.strip("0.") != ""):
-            context.report.info(child.at, f"<{tag}> in <{node.tag}> tunes Gazebo's engines; it is ignored")
+            context.report.info(
+                child.at, f"<{tag}> in <{node.tag}> tunes Gazebo's engines; it is ignored", "engine-tuning"
+            )

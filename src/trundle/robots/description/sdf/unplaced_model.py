@@ -32,6 +32,7 @@ class UnplacedModel(Struct, frozen=True, kw_only=True):
                     self.model.at,
                     f"placement_frame {self.placement_frame!r}: no such frame in model {self.model.name!r}; "
                     "its own frame is placed",
+                    "missing-frame",
                 )
         return RawPose(self.raw.pose @ offset, self.raw.relative_to, self.raw.at)
 

@@ -20,15 +20,15 @@ def read_version(root: XmlNode, report: Diagnostics) -> Version:
     text = root.attribute("version")
     newest = Version(NEWEST)
     if text is None:
-        report.warn(root.at, f"<{root.tag}> has no version; Gazebo refuses the file; read as {newest}")
+        report.warn(root.at, f"<{root.tag}> has no version; Gazebo refuses the file; read as {newest}", "sdf-version")
         return newest
     try:
         major, minor = (int(part) for part in text.strip().split("."))
     except ValueError:
-        report.warn(root.at, f"version {text!r} is not an SDF version; read as {newest}")
+        report.warn(root.at, f"version {text!r} is not an SDF version; read as {newest}", "sdf-version")
         return newest
     version = Version((major, minor))
     if version > newest:
-        report.warn(root.at, f"SDF {version} is newer than {newest}, the newest known; read as {newest}")
+        report.warn(root.at, f"SDF {version} is newer than {newest}, the newest known; read as {newest}", "sdf-version")
         return newest
     return version

@@ -35,13 +35,13 @@ def read_root(root: XmlNode, context: Context) -> tuple[World, bool]:
     version = str(context.version)
     if worlds:
         if len(worlds) > 1:
-            context.report.warn(worlds[1].at, "a second <world>; only the first is simulated")
+            context.report.warn(worlds[1].at, "a second <world>; only the first is simulated", "second-world")
         return replace(read_world(worlds[0], context), sdf_version=version), True
     contents = _Contents(root, context)
     actors = _actors(root, context)
     root.report_unread(context.report)
     if not contents.parts and not contents.lights and not root.children:
-        raise DescriptionError(root.at, f"<{root.tag}> contains no world, model or light")
+        raise DescriptionError(root.at, f"<{root.tag}> contains no world, model or light", "nothing-to-simulate")
     models = contents.models()
     named = (*models, *contents.lights, *actors)
     name = named[0].name if named else ""
@@ -172,7 +172,9 @@ class _Contents:
         elif duplicates:
             reason = f"a model {duplicates[0]!r}, whose name is taken"
         if reason:
-            self._context.report.warn(node.at, f"model {part.model.name!r} has {reason}; it is not merged")
+            self._context.report.warn(
+                node.at, f"model {part.model.name!r} has {reason}; it is not merged", "not-merged"
+            )
         return not reason
 
     def _add(self, part: UnplacedModel) -> None:
@@ -182,7 +184,9 @@ class _Contents:
             name = f"{part.model.name}_{number}"
             number += 1
         if name != part.model.name:
-            self._context.report.warn(part.model.at, f"a second model {part.model.name!r}; it is renamed {name!r}")
+            self._context.report.warn(
+                part.model.at, f"a second model {part.model.name!r}; it is renamed {name!r}", "duplicate-name"
+            )
             part = replace(part, model=replace(part.model, name=name))
         part.add_to(self.graph)
         self.parts.append(part)

@@ -192,7 +192,7 @@ class GazeboTags:
                 parts.append(part)
             elif opened:
                 reason = f"a second {part.model.name!r} in the robot" if part else "no <model> in the included file"
-                self._context.report.warn(node.at, f"{reason}; it is left out")
+                self._context.report.warn(node.at, f"{reason}; it is left out", "duplicate-name")
         return tuple(replace(part.model, world_from_model=graph.pose(part.model.name)) for part in parts)
 
     def joints(self, graph: FrameGraph) -> "tuple[Joint, ...]":
@@ -207,7 +207,7 @@ class GazeboTags:
             try:
                 joint = JointElement(node, graph, self._context)
             except DescriptionError as error:
-                self._context.report.warn(error.at, f"{error.what}; the joint is left out")
+                self._context.report.warn(error.at, f"{error.what}; the joint is left out", error.id)
                 continue
             if joint.is_sound:
                 sound.append(joint)
@@ -223,7 +223,9 @@ class GazeboTags:
                 self._all(reference, tag)
             if tag in _TUNING:
                 for node in self._all(reference, tag):
-                    self._context.report.info(node.at, f"<{tag}> tunes Gazebo's engines; it is ignored")
+                    self._context.report.info(
+                        node.at, f"<{tag}> tunes Gazebo's engines; it is ignored", "engine-tuning"
+                    )
 
     def report_unread(self, known: Collection[str], lumped: Collection[str]) -> None:
         """Warn of the elements that were not read.
@@ -245,7 +247,9 @@ class GazeboTags:
             elif reference and reference not in known:
                 why = "names no known link or joint"
             for node in nodes:
-                self._context.report.warn(node.at, f"<{tag}> for {target} in <gazebo> {why}; {consequence}")
+                self._context.report.warn(
+                    node.at, f"<{tag}> for {target} in <gazebo> {why}; {consequence}", "gazebo-tag"
+                )
 
     def _all(self, reference: str, tag: str) -> list[XmlNode]:
         self._read.add((reference, tag))

@@ -158,7 +158,7 @@ class _Lowering:
             world = self.links[WORLD]
             if world.visuals or world.collisions:
                 reason = f"link {WORLD!r} is the world itself: as in Gazebo its shapes are left out"
-                self.report.warn(world.at, f"{reason}; a link below it, at a fixed joint, keeps them")
+                self.report.warn(world.at, f"{reason}; a link below it, at a fixed joint, keeps them", "world-link")
 
     def _first(self, names: set[str]) -> str | None:
         """Return the first of some links in Gazebo's order: from the root down, children sorted by joint name.
@@ -232,7 +232,7 @@ class _Lowering:
             visuals.append(self.tags.with_appearance(visual, part.name))
             if gazebo is None and (shape.rgba is not None or shape.texture):
                 kind = "textures" if shape.texture else "colors"
-                self.report.info(shape.at, f"Gazebo draws URDF {kind} grey; Trundle keeps them")
+                self.report.info(shape.at, f"Gazebo draws URDF {kind} grey; Trundle keeps them", "urdf-colors")
         return visuals
 
     def _collisions(self, lump: str, part: RobotLink, pose: Pose, first: int) -> list[Collision]:
@@ -272,7 +272,7 @@ class _Lowering:
         try:
             return self.context.packages.resolve(uri, folder=self.context.folder, at=shape.at)
         except DescriptionError as error:
-            self.report.warn(error.at, f"{error.what}; the {kind} is left out")
+            self.report.warn(error.at, f"{error.what}; the {kind} is left out", error.id)
             return None
 
     def _joint(
@@ -283,7 +283,9 @@ class _Lowering:
             return None
         if joint.type not in _TYPES:
             self.report.warn(
-                joint.at, f"joint {joint.name!r}: Gazebo does not support {joint.type} joints; its child is free"
+                joint.at,
+                f"joint {joint.name!r}: Gazebo does not support {joint.type} joints; its child is free",
+                "unsupported-joint",
             )
             return None
         type_ = _TYPES[joint.type]
@@ -307,7 +309,7 @@ class _Lowering:
         upper = limit.upper if limit is not None and bounded and limit.upper < UNLIMITED else math.inf
         if lower > upper:
             message = f"joint {joint.name!r}: lower {lower:g} is above upper {upper:g}; swapped, as in Gazebo"
-            self.report.warn(joint.at, message)
+            self.report.warn(joint.at, message, "swapped-limits")
             lower, upper = upper, lower
         return JointAxis(
             direction=root_from_joint.transform_vector(normalized(joint.axis) or (1.0, 0.0, 0.0)),

@@ -25,7 +25,7 @@ def massless_lumps(robot: Robot, lumps: Mapping[str, Lump], report: Diagnostics)
         newly_dropped = [name for name in tree.subtree(link.name) if name not in dropped]
         dropped.update(newly_dropped)
         if newly_dropped:
-            report.warn(link.at, _sentence(link, tree.mass[link.name], newly_dropped))
+            report.warn(link.at, _sentence(link, tree.mass[link.name], newly_dropped), "massless-link")
     return dropped
 
 

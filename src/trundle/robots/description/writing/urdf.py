@@ -100,21 +100,25 @@ class _Writer:
         for joint in self.model.joints:
             if joint.type not in _TYPES:
                 message = f"joint {joint.name!r}: URDF has no {joint.type.value} joints; --to sdf has"
-                raise DescriptionError(joint.at, message)
+                raise DescriptionError(joint.at, message, "not-writable-urdf")
             if joint.child == _WORLD:
-                raise DescriptionError(joint.at, f"joint {joint.name!r}: in a URDF the world cannot be a child")
+                raise DescriptionError(
+                    joint.at, f"joint {joint.name!r}: in a URDF the world cannot be a child", "not-writable-urdf"
+                )
         parent_counts = Counter(joint.child for joint in self.model.joints)
         shared = [name for name, count in parent_counts.items() if count > 1]
         if shared:
             raise DescriptionError(
-                self.model.at, f"link {shared[0]!r} has {parent_counts[shared[0]]} parents; URDF is a tree"
+                self.model.at,
+                f"link {shared[0]!r} has {parent_counts[shared[0]]} parents; URDF is a tree",
+                "not-writable-urdf",
             )
         roots = [link.name for link in self.model.links if link.name not in parent_counts]
         if any(joint.parent == _WORLD for joint in self.model.joints):
             roots.append(_WORLD)
         if len(roots) != 1:
             names = ", ".join(map(repr, roots)) or "none"
-            raise DescriptionError(self.model.at, f"a URDF has one root link; here: {names}")
+            raise DescriptionError(self.model.at, f"a URDF has one root link; here: {names}", "not-writable-urdf")
         parents = {joint.child: joint.parent for joint in self.model.joints}
         for link in self.model.links:
             name, ancestors = link.name, set[str]()
@@ -122,9 +126,13 @@ class _Writer:
                 ancestors.add(name)
                 name = parents[name]
             if name in ancestors:
-                raise DescriptionError(link.at, f"link {link.name!r} is its own ancestor; URDF is a tree")
+                raise DescriptionError(
+                    link.at, f"link {link.name!r} is its own ancestor; URDF is a tree", "not-writable-urdf"
+                )
         if self.model.world_from_model != Pose():
-            self.report.info(self.model.at, "a URDF has no pose in the world; the model's pose is left out")
+            self.report.info(
+                self.model.at, "a URDF has no pose in the world; the model's pose is left out", "not-in-urdf"
+            )
 
     def _add_link(self, root: Tag, link: Link) -> None:
         frame_from_link = self.link_from_frame.get(link.name, Pose()).inverse()
@@ -152,7 +160,7 @@ class _Writer:
         geometry = self._geometry(item.geometry)
         if geometry is None:
             shape_kind = type(item.geometry).__name__.lower()
-            self.report.warn(item.at, f"{kind} {item.name!r}: URDF has no {shape_kind}; it is left out")
+            self.report.warn(item.at, f"{kind} {item.name!r}: URDF has no {shape_kind}; it is left out", "not-in-urdf")
             return None
         shape = link.add(kind, name=item.name)
         _add_origin(shape, frame_from_shape)
@@ -218,7 +226,9 @@ class _Writer:
         extra = Tag("gazebo", {"reference": link.name})
         surfaces = {collision.surface for collision in link.collisions}
         if len(surfaces) > 1:
-            self.report.warn(link.at, f"link {link.name!r}: a URDF has one surface per link; the first one is written")
+            self.report.warn(
+                link.at, f"link {link.name!r}: a URDF has one surface per link; the first one is written", "not-in-urdf"
+            )
         _add_surface(extra, link.collisions[0].surface if link.collisions else Surface())
         extra.add_unless("turnGravityOff", not link.gravity, default=False)
         extra.add_unless("selfCollide", link.self_collide, default=None)
@@ -226,7 +236,9 @@ class _Writer:
         if plugins:
             extra.add("visual").children += [plugin.node.xml() for plugin in plugins]
         if any(set(visual.plugins) != plugins.keys() for visual in link.visuals):
-            self.report.warn(link.at, f"link {link.name!r}: in a URDF all its visuals get the plugins of any")
+            self.report.warn(
+                link.at, f"link {link.name!r}: in a URDF all its visuals get the plugins of any", "not-in-urdf"
+            )
         for sensor in link.sensors:
             moved = replace(sensor, link_from_sensor=frame_from_link @ sensor.link_from_sensor)
             add_sensor(extra, self._with_contacts(moved, link), self.report)

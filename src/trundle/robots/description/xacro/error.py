@@ -37,11 +37,13 @@ def description_error(error: Exception, at: Source, top: Path, files: Iterable[s
     message = ""
     missing = missing_package(error)
     names = () if missing is None else (missing.name,)
+    id = "xacro" if missing is None else "missing-package"
     while inner is not None:
         if isinstance(inner, DescriptionError):  # refused within an expression
-            at, message, names = inner.at, inner.what, inner.missing_packages
+            at, message, names, id = inner.at, inner.what, inner.missing_packages, inner.id
         elif isinstance(inner, OSError):
             message = _why_unreadable(inner)
+            id = "missing-file" if isinstance(inner, FileNotFoundError) else "unreadable-file"
         elif match := _EXPRESSION.match(str(getattr(inner, "suffix", ""))):
             expression = match[1]
         inner = getattr(inner, "exc", None)
@@ -51,7 +53,7 @@ def description_error(error: Exception, at: Source, top: Path, files: Iterable[s
     source = source or at
     if _UNDEFINED.match(message) and source.file == str(top):
         message = f"{message}; is the file a part to include, not a robot? what includes it defines the name"
-    return DescriptionError(source, message, missing_packages=names)
+    return DescriptionError(source, message, id, missing_packages=names)
 
 
 def _why_unreadable(error: OSError) -> str:

@@ -124,13 +124,13 @@ def expand_xacro(
     """
     if data is None:
         if not os.path.exists(path):
-            raise DescriptionError(Source(str(path)), "no such file")
+            raise DescriptionError(Source(str(path)), "no such file", "missing-file")
         refuse_ros2_language(path, is_launch=False)
         packages = packages.around(path)
         try:
             data = read_file(path)
         except OSError as error:
-            raise DescriptionError(Source(str(path)), str(error.strerror)) from None
+            raise DescriptionError(Source(str(path)), str(error.strerror), "unreadable-file") from None
     cursor, budget = Cursor(Source(str(path))), ReadBudget(cpu_s=_CPU_S)
     with _LOCK, _patched(packages, report, path, data, cursor, budget):
         try:
@@ -144,7 +144,9 @@ def expand_xacro(
         except DescriptionError:
             raise
         except RecursionError:
-            raise DescriptionError(cursor.at, "infinite recursion of elements, macros or properties") from None
+            raise DescriptionError(
+                cursor.at, "infinite recursion of elements, macros or properties", "xacro-recursion"
+            ) from None
         except Exception as error:  # xacro evaluates the file's own Python, which may raise anything
             from .error import description_error
 
@@ -173,7 +175,7 @@ class _Arguments(dict[str, str]):
             suggestion = nearest(unknown[0], self._used) if len(self._used) > 1 else None
             hint = f"; the nearest is {suggestion!r}" if suggestion else ""
             message = f"no argument {unknown[0]!r}{hint}; arguments here: {names}"
-            raise UnknownArgumentError(Source(str(path)), message, name=unknown[0])
+            raise UnknownArgumentError(Source(str(path)), message, "unknown-argument", name=unknown[0])
 
 
 def _set_commands(functions: Mapping[str, Callable[..., str]]) -> None:
@@ -197,11 +199,11 @@ def _patched(
         if packages.stand_in_package(folder) is not None and name not in warned:
             warned.add(name)
             message = f"no package {name!r}: a stand-in of boxes is used; put the original on ROS_PACKAGE_PATH"
-            report.warn(cursor.at, message)
+            report.warn(cursor.at, message, "stand-in-package")
         return str(folder)
 
     def warn(*words: object) -> None:
-        report.warn(cursor.at, " ".join(map(str, words)))
+        report.warn(cursor.at, " ".join(map(str, words)), "xacro-warning")
 
     def open_readable(name: str) -> TextIO:
         packages.check_readable(Path(name), cursor.at, name="load_yaml")
@@ -298,9 +300,13 @@ def _parse_for(
 
 def _parsed(data: bytes, filename: str, report: Diagnostics, budget: ReadBudget) -> Any:
     if b"<!DOCTYPE" in data or b"<!ENTITY" in data:
-        raise DescriptionError(Source(filename), "a document type or entities of its own are not read")
+        raise DescriptionError(Source(filename), "a document type or entities of its own are not read", "xml-doctype")
     if data[:1].isspace() and data.lstrip().startswith(b"<?xml"):
-        report.warn(Source(filename, 1), "blank lines before <?xml …?>, for which xacro refuses the file")
+        report.warn(
+            Source(filename, 1),
+            "blank lines before <?xml …?>, for which xacro refuses the file",
+            "blank-lines-before-xml",
+        )
     try:
         return parse_with_lines(data, filename, budget)
     except ExpatError as error:
@@ -308,14 +314,14 @@ def _parsed(data: bytes, filename: str, report: Diagnostics, budget: ReadBudget)
 
         parse_xml(data, name=filename)  # raises an error with a sentence
         message = f"not well-formed XML: {ErrorString(error.code)}"
-        raise DescriptionError(Source(filename, error.lineno), message) from None
+        raise DescriptionError(Source(filename, error.lineno), message, "malformed-xml") from None
 
 
 def _expect_stand_in(file: Path, packages: Packages, at: Source) -> None:
     package = packages.absent_package(file)
     if package is not None:
         message = f"{packages.not_found_message(package)}; its stand-in has no {file.name}"
-        raise DescriptionError(at, message, missing_packages=(package,))
+        raise DescriptionError(at, message, "missing-package", missing_packages=(package,))
 
 
 def _data(name: str) -> bytes:
@@ -337,7 +343,7 @@ def _prefix_core_tags(document: Any, report: Diagnostics) -> None:
                 element.tagName = element.nodeName = f"xacro:{tag}"
                 rewritten.setdefault(tag, source_of(element))
     for tag, at in sorted(rewritten.items()):
-        report.warn(at, f"<{tag}> without the prefix xacro: is Indigo's syntax; read as <xacro:{tag}>")
+        report.warn(at, f"<{tag}> without the prefix xacro: is Indigo's syntax; read as <xacro:{tag}>", "xacro-prefix")
 
 
 def _drop_unnamed(document: Any, report: Diagnostics) -> None:
@@ -346,7 +352,9 @@ def _drop_unnamed(document: Any, report: Diagnostics) -> None:
         name = str(element.getAttribute("name"))
         if element.hasAttribute("name") and not name.isidentifier():
             element.parentNode.removeChild(element)
-            report.warn(source_of(element), f"a property named {name!r} cannot be referenced; it is left out")
+            report.warn(
+                source_of(element), f"a property named {name!r} cannot be referenced; it is left out", "xacro-property"
+            )
 
 
 def _eval_all_for(original: Callable[..., None], cursor: Cursor, budget: ReadBudget) -> Callable[..., None]:
@@ -355,7 +363,9 @@ def _eval_all_for(original: Callable[..., None], cursor: Cursor, budget: ReadBud
 
     def eval_all(node: Any, macros: Any, symbols: Any) -> None:
         if next(elements) > _MAX_ELEMENTS:
-            raise DescriptionError(cursor.at, f"macros and blocks that expand to more than {_MAX_ELEMENTS} elements")
+            raise DescriptionError(
+                cursor.at, f"macros and blocks that expand to more than {_MAX_ELEMENTS} elements", "too-large"
+            )
         budget.add_nodes(1, cursor.at)
         original(node, macros, symbols)
 
@@ -368,7 +378,9 @@ def _call_for(
     def handle_macro_call(node: Any, macros: Any, symbols: Any) -> bool:
         name = str(node.tagName)
         if ":" not in name and name not in _URDF and name in macros:
-            report.warn(cursor.at, f"<{name}> calls a macro without the prefix xacro:; read as <xacro:{name}>")
+            report.warn(
+                cursor.at, f"<{name}> calls a macro without the prefix xacro:; read as <xacro:{name}>", "xacro-prefix"
+            )
             node.tagName = node.nodeName = f"xacro:{name}"
         if node.tagName.startswith("xacro:"):
             budget.add_nodes(_NODES_OF_A_CALL, cursor.at)

@@ -48,13 +48,14 @@ def skip_missing_packages(package: Any, packages: Packages, report: Diagnostics)
             if missing is None:
                 raise
             left_out.append(spec)
-            report.warn(source_of(node), f"{missing}; the include is left out")
+            report.warn(source_of(node), f"{missing}; the include is left out", "lenient-include")
             return iter(())
         if files and packages.absent_package(Path(files[0])) is not None:
             left_out.append(spec)
             report.warn(
                 source_of(node),
                 f"{spec}: no such package, and its stand-in has no such file; the include is left out",
+                "lenient-include",
             )
             return iter(())
         return iter(files)
@@ -74,6 +75,7 @@ def skip_missing_packages(package: Any, packages: Packages, report: Diagnostics)
         report.warn(
             source_of(node),
             f"no macro <{node.tagName}>: the call is left out; it may come from an include left out",
+            "lenient-include",
         )
         package.replace_node(node, by=None)
         return True
@@ -98,7 +100,7 @@ def _drop_loose(robot: Any, report: Diagnostics) -> None:
         joint, parent, child = loose.pop()
         joints = [joint_ends for joint_ends in joints if joint_ends[0] is not joint]
         message = f"joint {joint.getAttribute('name')!r} is left out: no link"
-        report.warn(source_of(joint), f"{message} {(child if parent in links else parent)!r}")
+        report.warn(source_of(joint), f"{message} {(child if parent in links else parent)!r}", "lenient-include")
         robot.removeChild(joint)
         if parent not in links and child in links:
             robot.removeChild(links.pop(child))

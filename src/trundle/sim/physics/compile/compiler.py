@@ -192,9 +192,9 @@ class Compiler:
                 compiled = self.spec.compile()
             except ValueError as error:
                 problem = " ".join(str(error).split())
-                raise DescriptionError(self.world.at, f"the engine cannot simulate this: {problem}") from None
+                raise DescriptionError(self.world.at, f"the engine cannot simulate this: {problem}", "engine") from None
         for warning in caught:
-            self.report.warn(self.world.at, f"MuJoCo warns: {' '.join(str(warning.message).split())}")
+            self.report.warn(self.world.at, f"MuJoCo warns: {' '.join(str(warning.message).split())}", "engine")
         return compiled
 
     def _set_memory(self) -> None:
@@ -209,7 +209,9 @@ class Compiler:
         self.spec.memory = _BASE_BYTES + _PAIR_BYTES * len(bodies) ** 2 // 2 + _MOVING_BYTES * moving
         if self.spec.memory > _LARGE_BYTES:
             size = f"{self.spec.memory / 1e9:.1f} GB"
-            self.report.info(self.world.at, f"{len(bodies):,} bodies: the engine may use up to {size} of memory")
+            self.report.info(
+                self.world.at, f"{len(bodies):,} bodies: the engine may use up to {size} of memory", "engine-memory"
+            )
 
     def _add_link(self, node: LinkNode) -> None:
         """Add a link's body, after the bodies of its ancestors."""
@@ -237,7 +239,9 @@ class Compiler:
         part = f"{node.name} on {edge.name}"
         self.joints.add(self._add_body(part, node, edge), edge, node.world_from_link_at_zero)
         self.joints.weld(part, node.name, as_one=edge.parent_from_child is not None)
-        self.report.info(edge.joint.at, f"joint {edge.joint.name!r} closes a loop of links; a constraint holds it")
+        self.report.info(
+            edge.joint.at, f"joint {edge.joint.name!r} closes a loop of links; a constraint holds it", "loop-joint"
+        )
 
     def _add_body(self, name: str, node: LinkNode, edge: JointEdge | None) -> mujoco.MjsBody:
         """Add a body for a link, or for a part of a split one, below the parent of `edge`."""
@@ -268,11 +272,13 @@ class Compiler:
         body = self.bodies[node.name]
         if isinstance(collision.geometry, Plane | Heightmap) and not fixed:
             kind = "plane" if isinstance(collision.geometry, Plane) else "heightmap"
-            self.report.warn(collision.at, f"collision {collision.name!r}: a {kind} cannot move; it is left out")
+            self.report.warn(
+                collision.at, f"collision {collision.name!r}: a {kind} cannot move; it is left out", "static-shape"
+            )
             return
         if fixed and collision.surface.fdir1 != ZERO:
             note = "its <fdir1> does not count: as in Gazebo, the moving collision's does"
-            self.report.info(collision.at, f"collision {collision.name!r}: {note}")
+            self.report.info(collision.at, f"collision {collision.name!r}: {note}", "approximated-shape")
         name = self._shape_name(f"{node.name}::{collision.name}")
         parts = [(collision, name, CollidesWith.ALL, 1)]
         tread = tread_of(collision, node, self.tree)

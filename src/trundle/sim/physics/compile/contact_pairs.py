@@ -102,7 +102,7 @@ def _needs_pairs(
         return frozenset(not_plain | {shape.name for shape in soft})
     first = soft[0]
     problem = f"{len(soft)} of {len(shapes)} shapes are soft (kp, min_depth), the first {first.collision!r}"
-    report.warn(models[first.model].at, f"{problem}; they are simulated as hard")
+    report.warn(models[first.model].at, f"{problem}; they are simulated as hard", "soft-contacts")
     return frozenset(not_plain)
 
 

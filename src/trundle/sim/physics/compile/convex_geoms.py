@@ -79,5 +79,5 @@ def thick_pieces(pieces: Sequence[_Points], collision: Collision, report: Diagno
     thick, thickest = thicken(pieces)
     if thickest:
         problem = f"a mesh of zero thickness; physics uses {thickest * 1000:.2g} mm"
-        report.warn(collision.at, f"collision {collision.name!r}: {problem}")
+        report.warn(collision.at, f"collision {collision.name!r}: {problem}", "degenerate-shape")
     return thick

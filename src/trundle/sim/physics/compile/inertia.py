@@ -28,7 +28,11 @@ def principal_inertia(link: Link, report: Diagnostics) -> tuple[float, Pose, tup
     inertial = link.inertial
     mass = inertial.mass
     if not mass >= SMALLEST_MASS:
-        report.warn(link.at, f"link {link.name!r}: mass {mass:g} kg cannot move; physics uses {SMALLEST_MASS:g}")
+        report.warn(
+            link.at,
+            f"link {link.name!r}: mass {mass:g} kg cannot move; physics uses {SMALLEST_MASS:g}",
+            "impossible-inertia",
+        )
         mass = SMALLEST_MASS
     moments, axes = np.linalg.eigh(_tensor(inertial))
     if np.linalg.det(axes) < 0:
@@ -37,6 +41,7 @@ def principal_inertia(link: Link, report: Diagnostics) -> tuple[float, Pose, tup
         report.warn(
             link.at,
             f"link {link.name!r}: moment of inertia {moments[0]:g} kg·m² cannot turn; physics uses {SMALLEST_MOMENT:g}",
+            "impossible-inertia",
         )
         moments = np.maximum(moments, SMALLEST_MOMENT)
     excess = moments[2] - (moments[0] + moments[1])
@@ -47,6 +52,7 @@ def principal_inertia(link: Link, report: Diagnostics) -> tuple[float, Pose, tup
             link.at,
             f"link {link.name!r}: principal moments {moments[0]:g}, {moments[1]:g}, {moments[2]:g} kg·m² violate the "
             f"triangle inequality: no body has them; physics {remedy}",
+            "impossible-inertia",
         )
         moments = moments + np.array([rise, rise, 0.0])
     pose = inertial.link_from_com

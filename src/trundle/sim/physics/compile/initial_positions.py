@@ -146,7 +146,7 @@ def _report_unreachable(
         rotation_error = (reached.inverse() @ saved).quaternion
         if math.dist(reached.position, saved.position) > _OFF_M or 2 * math.hypot(*rotation_error[1:]) > _OFF_RAD:
             note = f"link {node.link.name!r}: its joints cannot reach the saved pose; it starts at the nearest"
-            report.info(node.link.at, note)
+            report.info(node.link.at, note, "initial-position")
 
 
 def _vector(numbers: NDArray[np.float64]) -> Vector3:

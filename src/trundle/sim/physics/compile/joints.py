@@ -57,7 +57,7 @@ class JointBuilder:
         if is_rigid(joint):
             if joint.axis is not None and joint.type is not JointType.FIXED:
                 problem = f"lower = upper = {joint.axis.lower:g} leaves no freedom; rigid"
-                self._report.info(joint.at, f"joint {joint.name!r}: {problem}")
+                self._report.info(joint.at, f"joint {joint.name!r}: {problem}", "joint-physics")
             return
         if joint.type is JointType.BALL:
             body.add_joint(name=edge.name, type=mujoco.mjtJoint.mjJNT_BALL, pos=anchor)
@@ -68,7 +68,7 @@ class JointBuilder:
             written = [(joint.axis, "::axis"), (joint.axis2, "::axis2")]
             if joint.axis is not None and joint.axis2 is not None and _are_parallel(joint.axis, joint.axis2):
                 problem = "its two axes are parallel; the second is left out"
-                self._report.warn(joint.at, f"joint {joint.name!r}: {problem}")
+                self._report.warn(joint.at, f"joint {joint.name!r}: {problem}", "joint-physics")
                 written.pop()
         axes: list[Axis] = []
         # The first joint of a body is the outermost: in a reversed joint the last axis comes first.
@@ -113,11 +113,11 @@ class JointBuilder:
             lower, upper = sorted((axis.lower, axis.upper))
             if lower != axis.lower:
                 problem = f"joint {joint.name!r}: lower {upper:g} is above upper {lower:g}; physics swaps them"
-                self._report.warn(joint.at, problem)
+                self._report.warn(joint.at, problem, "swapped-limits")
             hinge.range = [max(lower, -1e10), min(upper, 1e10)]
             if axis.stop_stiffness < _HARD_STOP:
                 problem = "a limit's <stiffness> and <dissipation> are ignored, as in Gazebo's ODE; the stop is hard"
-                self._report.info(joint.at, f"joint {joint.name!r}: {problem}")
+                self._report.info(joint.at, f"joint {joint.name!r}: {problem}", "engine-tuning")
         if math.isfinite(axis.effort) and axis.effort >= 0:
             hinge.actfrclimited = mujoco.mjtLimited.mjLIMITED_TRUE
             effort = max(axis.effort, _NO_EFFORT)
@@ -126,7 +126,11 @@ class JointBuilder:
     def _non_negative(self, value: float, parameter: str, joint: Joint) -> float:
         if value >= 0 and math.isfinite(value):
             return value
-        self._report.warn(joint.at, f"joint {joint.name!r}: {parameter} {value:g} would add energy; physics uses 0")
+        self._report.warn(
+            joint.at,
+            f"joint {joint.name!r}: {parameter} {value:g} would add energy; physics uses 0",
+            "negative-damping",
+        )
         return 0.0
 
     def _add_screw(self, body: mujoco.MjsBody, edge: JointEdge, anchor: Vector3, direction: Vector3) -> None:
@@ -134,7 +138,7 @@ class JointBuilder:
         pitch, advance = edge.joint.thread_pitch, f"{edge.name}::advance"
         if pitch == 0 or not math.isfinite(pitch):
             problem = f"thread_pitch {pitch:g} is not usable; the joint turns without advancing"
-            self._report.warn(edge.joint.at, f"joint {edge.joint.name!r}: {problem}")
+            self._report.warn(edge.joint.at, f"joint {edge.joint.name!r}: {problem}", "out-of-range")
             return
         body.add_joint(name=advance, type=mujoco.mjtJoint.mjJNT_SLIDE, pos=anchor, axis=direction)
         self._couple(advance, edge.name, ratio=-1.0 / pitch)
@@ -167,7 +171,7 @@ class JointBuilder:
         leaders = self.axes.get(f"{prefix}{mimic.joint}", [])
         if len(leaders) <= mimic.axis or leaders[mimic.axis].axis is None or leaders[mimic.axis] == follower:
             problem = f"mimics {mimic.joint!r}, which has no such axis; it moves freely"
-            self._report.warn(joint.at, f"joint {joint.name!r} {problem}")
+            self._report.warn(joint.at, f"joint {joint.name!r} {problem}", "mimic")
             return
         offset = mimic.offset - mimic.multiplier * mimic.reference
         self._couple(follower.engine_joint, leaders[mimic.axis].engine_joint, ratio=mimic.multiplier, offset=offset)
@@ -183,7 +187,7 @@ class JointBuilder:
         driver, driven = wheels
         if driver is None or driven is None:
             problem = "parent and child must each be connected to the reference body by a revolute joint; left out"
-            self._report.warn(joint.at, f"joint {joint.name!r}: {problem}")
+            self._report.warn(joint.at, f"joint {joint.name!r}: {problem}", "gearbox")
             return
         ratio = -joint.gearbox_ratio * driver[1] * driven[1]
         self._couple(driven[0], driver[0], ratio=ratio)

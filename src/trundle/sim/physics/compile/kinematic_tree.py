@@ -89,7 +89,9 @@ class KinematicTree(Struct, frozen=True, eq=False):
         joints += [_joint_between_models(joint, nodes) for joint in world.joints if _has_known_links(joint, nodes)]
         for joint in world.joints:
             if not _has_known_links(joint, nodes):
-                report.warn(joint.at, f"joint {joint.name!r} connects links that do not exist; it is left out")
+                report.warn(
+                    joint.at, f"joint {joint.name!r} connects links that do not exist; it is left out", "missing-link"
+                )
         parent_joint, loops = _spanning_tree(joints, nodes)
         return cls(nodes, tuple(joints), parent_joint, loops, _immobile_links(nodes, parent_joint))
 
@@ -105,7 +107,7 @@ def _refuse_duplicates(kind: str, named: Sequence[Model] | Sequence[Link] | Sequ
     names: set[str] = set()
     for item in named:
         if item.name in names:
-            raise DescriptionError(item.at, f"a second {kind} {item.name!r}; names must differ")
+            raise DescriptionError(item.at, f"a second {kind} {item.name!r}; names must differ", "duplicate-name")
         names.add(item.name)
 
 

@@ -59,7 +59,7 @@ def add_mesh(
     try:
         mesh = _mesh_of(collision)
     except MeshError as error:
-        report.warn(collision.at, f"{error}; the collision is left out")
+        report.warn(collision.at, f"{error}; the collision is left out", error.id)
         return []
     if mesh is None:
         return []
@@ -70,7 +70,11 @@ def add_mesh(
             (corners,) = split.corners  # a subset, for a very fine mesh
         elif split is not None and split.concave and not fixed:
             mesh_text = f"a mesh of {len(mesh.faces)} triangles that is not convex; its pieces are"
-            report.info(collision.at, f"collision {collision.name!r}: {mesh_text} not checked (check --collisions)")
+            report.info(
+                collision.at,
+                f"collision {collision.name!r}: {mesh_text} not checked (check --collisions)",
+                "approximated-shape",
+            )
         (corners,) = thick_pieces([corners], collision, report)
         return [(add_hull(spec, body, collision.link_from_collision, name, corners), CollidesWith.ALL)]
     cut = decomposition.pieces_of(*_arrays(mesh), fixed=fixed)
@@ -105,7 +109,9 @@ def _report_cut(cut: DecomposedMesh, mesh: Mesh, collision: Collision, report: D
     if cut.simplified_by:
         count = sum(map(len, cut.pieces.corners))
         note = f"{count:,} corners of {len(mesh.vertices):,}, a surface up to {cut.simplified_by:.2g} m away"
-        report.info(collision.at, f"collision {collision.name!r}: a very fine mesh; physics uses {note}")
+        report.info(
+            collision.at, f"collision {collision.name!r}: a very fine mesh; physics uses {note}", "approximated-shape"
+        )
     errors = cut.pieces.errors
     if not errors or cut.is_stand_in:
         return
@@ -116,11 +122,11 @@ def _report_cut(cut: DecomposedMesh, mesh: Mesh, collision: Collision, report: D
     mesh_text = f"a hollow mesh of {len(mesh.faces)} triangles; physics {method}"
     text = f"collision {collision.name!r}: {mesh_text}: {times}a surface up to {worst.distance:.2g} m away"
     if cut.is_failed:
-        report.warn(collision.at, f"{text}; it could not be cut into convex pieces")
+        report.warn(collision.at, f"{text}; it could not be cut into convex pieces", "approximated-shape")
     elif cut.is_coarse:
-        report.warn(collision.at, f"{text}; fewer pieces to save time; {FULL}=1 computes all")
+        report.warn(collision.at, f"{text}; fewer pieces to save time; {FULL}=1 computes all", "approximated-shape")
     else:
-        report.info(collision.at, text)
+        report.info(collision.at, text, "approximated-shape")
 
 
 def _arrays(mesh: Mesh) -> tuple[NDArray[np.float64], NDArray[np.intp]]:

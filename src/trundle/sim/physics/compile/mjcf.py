@@ -53,6 +53,7 @@ def compile_mjcf(world: World, scene: "Scene", report: Diagnostics, *, picture_o
         report.warn(
             world.at,
             f"body {name!r}: MJCF allows no moments that violate the triangle inequality; they are raised in it",
+            "not-in-mjcf",
         )
     with warnings.catch_warnings():
         ignore_attach_warning()
@@ -102,6 +103,7 @@ class _VisualWriter:
             self._report.warn(
                 self._at,
                 "textures are written to MJCF with -o only, and of meshes only; other shapes have mean colors",
+                "not-in-mjcf",
             )
         for shape in self._scene.shapes:
             self._add_shape(shape)

@@ -71,7 +71,7 @@ def add_shape(
             corners = np.vstack([base, [0.0, 0.0, length / 2]])
             away = radius * (1 - np.cos(np.pi / _CONE_SIDES))
             note = f"a cone; physics uses a pyramid of {_CONE_SIDES} sides, a surface up to {away:.2g} m away"
-            report.info(collision.at, f"collision {collision.name!r}: {note}")
+            report.info(collision.at, f"collision {collision.name!r}: {note}", "approximated-shape")
             return [(add_hull(spec, body, pose, name, corners), CollidesWith.ALL)]
         case Polyline(outlines, height):
             prisms = _add_prisms(spec, body, collision, name, report, outlines, height)
@@ -112,7 +112,7 @@ def _add_prisms(
     """Add a polyline as one prism per triangle of its outline."""
     if sum(map(len, outlines)) > _MAX_CORNERS or not height > 0:
         problem = f"a polyline of more than {_MAX_CORNERS} corners, or without height; it is left out"
-        report.warn(collision.at, f"collision {collision.name!r}: {problem}")
+        report.warn(collision.at, f"collision {collision.name!r}: {problem}", "degenerate-shape")
         return []
     prisms = [np.array([(x, y, z) for z in (0.0, height) for x, y in triangle]) for triangle in triangulate(outlines)]
     return add_hulls(spec, body, collision.link_from_collision, name, thick_pieces(prisms, collision, report))
@@ -126,6 +126,7 @@ def _repaired(collision: Collision, report: Diagnostics) -> Geometry:
                 collision.at,
                 f"collision {collision.name!r}: {' and '.join(thin)} of zero thickness; "
                 f"physics uses {MIN_THICKNESS * 1000:g} mm",
+                "degenerate-shape",
             )
         x, y, z = (max(length, MIN_THICKNESS) for length in lengths)
         return (x, y, z)

@@ -29,12 +29,16 @@ def add_terrain(
     try:
         heights = read_heights(terrain.path, sampling=terrain.sampling)
     except MeshError as error:
-        report.warn(collision.at, f"collision {collision.name!r}: heightmap {terrain.uri!r}: {error}; it is left out")
+        report.warn(
+            collision.at, f"collision {collision.name!r}: heightmap {terrain.uri!r}: {error}; it is left out", error.id
+        )
         return []
     x, y, z = terrain.size
     if not (x > 0 and y > 0 and z > 0):
         problem = f"heightmap of size {x:g} {y:g} {z:g}"
-        report.warn(collision.at, f"collision {collision.name!r}: {problem} is empty; it is left out")
+        report.warn(
+            collision.at, f"collision {collision.name!r}: {problem} is empty; it is left out", "degenerate-shape"
+        )
         return []
     top = float(heights.max())
     field = spec.add_hfield(name=name, nrow=heights.shape[0], ncol=heights.shape[1])

@@ -65,4 +65,4 @@ def report_wheels(world: World, report: Diagnostics) -> None:
             if tread_of(collision, node, tree) is not None:
                 note = "a wheel; in physics it rolls on the ellipsoid inscribed in it"
                 away = f"a surface up to {TREAD * 1e3:g} mm away"
-                report.info(collision.at, f"collision {collision.name!r}: {note}, {away}")
+                report.info(collision.at, f"collision {collision.name!r}: {note}, {away}", "approximated-shape")

@@ -50,6 +50,8 @@ class SimulationUnstableError(TrundleError):
 
     __module__ = "trundle"
 
+    id = "unstable"
+
     def __init__(self, divergence: Divergence) -> None:
         super().__init__(
             f"the physics became unstable {divergence}; "

@@ -99,7 +99,7 @@ class ImageSaver:
 
     def _stop(self, problem: str) -> None:
         self._is_stopped = True
-        self._report.warn(self._at, problem)
+        self._report.warn(self._at, problem, "saved-images")
 
     def _write(self, data: memoryview) -> None:
         """Write the next image; an incomplete file is removed."""

@@ -66,7 +66,11 @@ def mount_cameras(
                 if sensor.type in MEASURING or model not in (None, owner.name):
                     continue
                 if sensor.type not in _KINDS:
-                    report.warn(sensor.at, f"sensor {sensor.name!r}: {sensor.type} sensors are not simulated yet")
+                    report.warn(
+                        sensor.at,
+                        f"sensor {sensor.name!r}: {sensor.type} sensors are not simulated yet",
+                        "unsupported-sensor",
+                    )
                     continue
                 kind: type[CameraSensor] = getattr(sensors, _KINDS[sensor.type])
                 _report_unsupported(sensor, report)
@@ -94,7 +98,9 @@ def _check_labels(cameras: Sequence[CameraSensor], report: Diagnostics) -> None:
     for camera in cameras:
         if camera.sees_labels and not camera.scene.labels.any():
             problem = "nothing in the world has a label (gz-sim-label-system in a <visual> or <model> gives one)"
-            report.warn(camera.sensor.at, f"sensor {camera.name!r}: {problem}; the image shows background only")
+            report.warn(
+                camera.sensor.at, f"sensor {camera.name!r}: {problem}; the image shows background only", "no-labels"
+            )
 
 
 def _supported_cameras(sensor: Sensor, report: Diagnostics) -> Iterator[CameraOptics]:
@@ -105,7 +111,7 @@ def _supported_cameras(sensor: Sensor, report: Diagnostics) -> Iterator[CameraOp
         else:
             formats = ", ".join(FORMATS)
             problem = f"no image format {optics.format}; formats: {formats}; R8G8B8 is used"
-            report.warn(sensor.at, f"sensor {sensor.name!r}: {problem}")
+            report.warn(sensor.at, f"sensor {sensor.name!r}: {problem}", "unknown-choice")
             yield replace(optics, format="R8G8B8")
 
 
@@ -115,9 +121,11 @@ def _save(camera: CameraSensor, simulation: Simulation, world: str, report: Diag
         return
     folder = folder_for(path)
     if folder == Path(os.path.abspath(path)):
-        report.info(camera.sensor.at, f"sensor {camera.name!r}: <save> writes into {folder}")
+        report.info(camera.sensor.at, f"sensor {camera.name!r}: <save> writes into {folder}", "saved-images")
     else:
-        report.warn(camera.sensor.at, f"sensor {camera.name!r}: <save> writes into {folder} in place of {path}")
+        report.warn(
+            camera.sensor.at, f"sensor {camera.name!r}: <save> writes into {folder} in place of {path}", "saved-images"
+        )
     saver = ImageSaver(camera, folder, world, report, quota_of(simulation))
     camera.listen(saver.save, enabled=saver.enabled)
 
@@ -127,6 +135,8 @@ def _report_unsupported(sensor: Sensor, report: Diagnostics) -> None:
     for optics in sensor.cameras:
         if optics.lens is not None and optics.lens.scale_to_hfov and not fits(optics.lens, optics.horizontal_fov_rad):
             fov = f"{optics.horizontal_fov_rad:g} rad"
-            report.warn(sensor.at, f"{prefix}: no scale of this lens spans {fov}; <scale_to_hfov> is ignored")
+            report.warn(
+                sensor.at, f"{prefix}: no scale of this lens spans {fov}; <scale_to_hfov> is ignored", "out-of-range"
+            )
         if optics.box_type == "full_2d" and (optics.distortion != Distortion() or optics.intrinsics is not None):
-            report.warn(sensor.at, f"{prefix}: full_2d boxes ignore distortion and <intrinsics>")
+            report.warn(sensor.at, f"{prefix}: full_2d boxes ignore distortion and <intrinsics>", "unsupported-sensor")

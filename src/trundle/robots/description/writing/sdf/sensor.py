@@ -42,7 +42,11 @@ def add_sensor(home: Tag, sensor: Sensor, report: Diagnostics) -> None:
     elif sensor.instrument is not None:
         add_instrument(tag, sensor.instrument)
     elif sensor.type not in _WITHOUT:
-        report.warn(sensor.at, f"sensor {sensor.name!r}: the settings of a {sensor.type} sensor are not written yet")
+        report.warn(
+            sensor.at,
+            f"sensor {sensor.name!r}: the settings of a {sensor.type} sensor are not written yet",
+            "not-in-sdf",
+        )
     tag.children += [plugin.node.xml() for plugin in sensor.plugins]
 
 

@@ -114,7 +114,7 @@ class _Writer:
         for visual in link.visuals:
             add_visual(tag, visual, self.uri_of)
             if visual.material.texture_scale != (1.0, 1.0):
-                self.report.warn(visual.at, f"visual {visual.name!r}: SDF has no texture scale")
+                self.report.warn(visual.at, f"visual {visual.name!r}: SDF has no texture scale", "not-in-sdf")
         for collision in link.collisions:
             add_collision(tag, collision, self.uri_of)
         for sensor in link.sensors:
@@ -133,7 +133,7 @@ class _Writer:
             root: frame of `home`.
         """
         if joint.type is JointType.PLANAR:
-            self.report.warn(joint.at, f"joint {name!r}: SDF has no planar joints; its child is free")
+            self.report.warn(joint.at, f"joint {name!r}: SDF has no planar joints; its child is free", "not-in-sdf")
             return
         tag = home.add("joint", name=name, type=joint.type.value)
         by_link = joint.child_frame is None and joint.child != "world"
@@ -141,7 +141,9 @@ class _Writer:
         tag.add("parent", joint.parent_frame or joint.parent)
         tag.add("child", joint.child_frame or joint.child)
         if joint.child == "world" and root != "world":
-            self.report.warn(joint.at, f"joint {name!r} has the world as its child, which SDF 1.8 and later refuse")
+            self.report.warn(
+                joint.at, f"joint {name!r} has the world as its child, which SDF 1.8 and later refuse", "not-in-sdf"
+            )
         for axis_tag, axis in (("axis", joint.axis), ("axis2", joint.axis2)):
             if axis is not None:
                 _add_axis(tag.add(axis_tag), axis, root)
