@@ -11,10 +11,11 @@ from mkdocs.structure.files import File, Files
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "docs"))  # MkDocs loads this file by its path
 
-from generate import api, catalogs, command_line, diagnostics, elements, pictures  # noqa: E402
+from generate import api, catalogs, command_line, diagnostics, elements, gallery, pictures  # noqa: E402
 
 PAGES: dict[str, Callable[[], str]] = {
     "decisions/index.md": lambda: _decisions(),
+    "gallery.md": gallery.page,
     "reference/cli.md": command_line.page,
     "reference/diagnostics.md": diagnostics.page,
     "reference/nodes.md": catalogs.nodes_page,
@@ -42,7 +43,8 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     for path in sorted((ROOT / "examples").rglob("*")):
         if path.is_file() and path.suffix != ".pyc":
             files.append(File.generated(config, path.relative_to(ROOT).as_posix(), abs_src_path=str(path)))
-    for name, picture in pictures.draw_all(ROOT / "out/pictures").items():
+    folder = ROOT / "out/pictures"
+    for name, picture in {**pictures.draw_all(folder), **gallery.draw_all(folder)}.items():
         files.append(File.generated(config, f"pictures/{name}", abs_src_path=str(picture)))
     return files
 

@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import shutil
 import sys
 from pathlib import Path
 
@@ -27,6 +28,7 @@ EXAMPLES = """
   trundle run model://rp2w                            a robot in Gazebo's model path, or shipped with Trundle
   trundle run my_robot/model.sdf                      a file; a folder with model.config works too
   trundle run robot.urdf.xacro --headless             no browser page
+  trundle run --list                                  worlds, robots and launch files that come with Trundle
   trundle run world.sdf --headless --speed max --duration 10 --json
                                                       ten simulated seconds as fast as possible, the result as JSON
 """
@@ -35,6 +37,7 @@ EXAMPLES = """
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("file", metavar="FILE|DIR|model://NAME|package://PKG/FILE", help="file to simulate")
+    parser.add_argument("--list", action=_ListShipped, nargs=0, help="list what comes with Trundle to be run, and exit")
     parser.add_argument("--json", action="store_true", help="print the final state as one JSON object")
     add = field_option(parser)
     add("--headless", action="store_true", help="no browser page")
@@ -92,3 +95,14 @@ def _positive(text: str) -> float:
     if not value > 0:
         raise argparse.ArgumentTypeError(f"{text} is not a duration; give seconds, such as 10")
     return value
+
+
+class _ListShipped(argparse.Action):
+    """Prints what comes with Trundle, like --help."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        """Print it, and exit."""
+        from .shipped_list import shipped_list
+
+        print(shipped_list(shutil.get_terminal_size((120, 24)).columns))
+        parser.exit()

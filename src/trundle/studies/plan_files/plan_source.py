@@ -8,6 +8,7 @@ from typing import NamedTuple
 import yaml
 
 from trundle.base.diagnostics import UsageError
+from trundle.robots.packages import PLANS
 
 from .yaml_node import YamlNode
 
@@ -24,7 +25,9 @@ class PlanSource(NamedTuple):
 
 
 def read_source(plan: "str | os.PathLike[str] | Mapping[str, object]") -> PlanSource:
-    """Read a plan's file, or convert a dictionary to YAML.
+    """Read a plan's file, else Trundle's plan of that name, or convert a dictionary to YAML.
+
+    Paths of a plan of Trundle are relative to the working directory, where its results are, too.
 
     Raises:
         UsageError: the file cannot be read.
@@ -32,8 +35,10 @@ def read_source(plan: "str | os.PathLike[str] | Mapping[str, object]") -> PlanSo
     if isinstance(plan, Mapping):
         return PlanSource(yaml.safe_dump(dict(plan), sort_keys=False), "plan", Path.cwd())
     file = Path(plan)
+    shipped = PLANS / file
+    path = shipped if file.name == str(file) and not file.exists() and shipped.is_file() else file
     try:
-        text = file.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8")
     except OSError as error:
         raise UsageError(f"{file}: {error.strerror}; give the YAML file of a plan") from None
     except UnicodeDecodeError:
