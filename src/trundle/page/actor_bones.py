@@ -17,7 +17,7 @@ class ActorBones:
     def __init__(self, world: World) -> None:
         self._actors = []
         if world.actors:
-            from trundle.sim.render import skinned_actors  # reads COLLADA; most worlds have no actors
+            from trundle.sim.render import skinned_actors  # lazy: loads the COLLADA reader
 
             self._actors = list(skinned_actors(world))
         self.names = tuple(f"{name}::{bone}" for _, name, puppet in self._actors for bone in puppet.bones)

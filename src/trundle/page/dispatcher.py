@@ -208,7 +208,7 @@ class Page:
             case OpenMailbox(stream, address):
                 try:
                     self._stream(stream).open(Mailbox.open(address))
-                except FileNotFoundError:  # replaced already; the next message opens the new one
+                except FileNotFoundError:  # the mailbox was replaced; the next message opens the new one
                     return
             case Respond() as answer:
                 self._owner.receive(answer)
@@ -236,7 +236,7 @@ class Page:
         """Return the content of `/session.json`; a view-only client gets view-only addresses."""
         session = self._session
         if self._saved_rviz is not None:
-            session = msgspec.structs.replace(session, rviz=self._saved_rviz, fixed_frame=None)  # the file has one
+            session = msgspec.structs.replace(session, rviz=self._saved_rviz, fixed_frame=None)  # the file has a frame
         served = self.addresses
         page_session = PageSession(
             **msgspec.structs.asdict(session),

@@ -29,7 +29,7 @@ from .terminals import PageTerminals
 
 _PERIOD_S = 1 / 50
 _AT_REST = MoveJoystick(axes=(0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0), buttons=(0,) * 11)
-"""As the page's joystick rests: triggers are at 1."""
+"""Axes of the page's joystick at rest: triggers are at 1."""
 _JOYSTICK_LEASE_S = 1.0
 _MAX_CONFIG_BYTES = 4_000_000
 
@@ -120,7 +120,7 @@ class GraphPage:
         """
         if config is not None and os.path.exists(config):
             self._config = Path(config)
-            self._page.change(rviz=read_rviz_file(self._config), fixed_frame=None)  # the file has one
+            self._page.change(rviz=read_rviz_file(self._config), fixed_frame=None)  # the file's fixed frame counts
         if config is not None or self._owner is None:
             self._page.change(namespace=node.name.rpartition("/")[0] or "/", remappings=dict(node.remappings))
         if fixed_frame is not None:

@@ -21,7 +21,7 @@ from .requests.lessons import (
 
 
 class LessonAnswers:
-    """Reads lessons: those that Trundle brings, and the file that the page was started with. Used on the loop only."""
+    """Reads lessons: Trundle's own, and the file that the page was started with. Used on the loop only."""
 
     def __init__(self) -> None:
         self._files = FileStates()
@@ -47,14 +47,14 @@ class LessonAnswers:
 
 
 def _list(own: str | None) -> tuple[LessonEntry, ...]:
-    from .lessons.read import lesson_names, read_lesson  # takes the parser of Markdown with it
+    from .lessons.read import lesson_names, read_lesson  # lazy: loads the parser of Markdown
 
     names = dict.fromkeys((*(() if own is None else (own,)), *lesson_names()))
     entries: list[LessonEntry] = []
     for name in names:
         try:
             entries.append(LessonEntry(name=name, title=read_lesson(name).title))
-        except TrundleError:  # the user's file has changed; opening it tells why
+        except TrundleError:  # the user's file was changed; opening it reports the error
             entries.append(LessonEntry(name=name, title=name))
     return tuple(entries)
 

@@ -41,7 +41,7 @@ def read_link_files(environment: Mapping[str, str]) -> list[Served]:
 
 
 def _has_ended(links: Served) -> bool:
-    """True if no server listens at the page's port, or another one, which refuses the token."""
+    """True if no server listens at the page's port, or if it is another server, which refuses the token."""
     session = urlunsplit(urlsplit(links.url)._replace(path="/session.json"))
     try:
         with urllib.request.build_opener(urllib.request.ProxyHandler({})).open(session, timeout=_TIMEOUT_S):

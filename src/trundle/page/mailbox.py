@@ -74,5 +74,5 @@ class Mailbox:
         return message
 
     def unlink(self) -> None:
-        """Remove its address; processes that have opened it keep the memory."""
+        """Remove the mailbox's address; processes that have opened the mailbox keep the memory."""
         self._shared.unlink()

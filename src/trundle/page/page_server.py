@@ -83,7 +83,7 @@ _Item = TypeVar("_Item")
 class PageServer:
     """A browser page served by its own process.
 
-    One thread owns it. No method but `start` and `close` waits for the page, however slow the browser.
+    One thread owns it. Only `start` and `close` wait for the server; no method waits for a browser.
     """
 
     def __init__(self, start: Start, node: "Node | None", say: Callable[[str], None]) -> None:
@@ -171,7 +171,7 @@ class PageServer:
 
     @property
     def alive(self) -> bool:
-        """True while the server runs or is being started again; afterwards all data is dropped."""
+        """True while the server runs or is being started again; after that, all data is dropped."""
         return self._process.alive
 
     @property
@@ -305,7 +305,7 @@ class PageServer:
         self._put(RANGES, line_pieces(time_ns, tuple(lines)))
 
     def put_terminal(self, stream: str, first: int, size: tuple[int, int], output: bytes) -> None:
-        """Show the end of a terminal's output, from byte `first` of the whole, at a size (columns, rows)."""
+        """Show the end of a terminal's output, from byte number `first`, at a size (columns, rows)."""
         self._put(stream, [TERMINAL_HEADER.pack(first, *size), output])
 
     def put_image(self, topic: str, time_ns: int, rgb: NDArray[np.uint8]) -> None:
@@ -317,13 +317,13 @@ class PageServer:
     def close(self) -> None:
         """End the server and wait until its process has ended and the port is free. May be called twice."""
         self._process.close()
-        mailboxes, self._mailboxes = self._mailboxes, {}  # first: two threads may close
+        mailboxes, self._mailboxes = self._mailboxes, {}  # first, since two threads may close
         for mailbox in mailboxes.values():
             mailbox.unlink()
         if self._link_file is not None:
             with contextlib.suppress(OSError):
                 self._link_file.unlink(missing_ok=True)
-                self._link_file.parent.rmdir()  # if no other page runs
+                self._link_file.parent.rmdir()  # fails while other pages run
         if self._uploads is not None:  # the server removes it, unless it was killed
             shutil.rmtree(self._uploads.parent, ignore_errors=True)
 

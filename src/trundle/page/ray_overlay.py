@@ -12,9 +12,9 @@ from trundle.sim.simulation import Snapshot
 from trundle.spatial import Pose, transform_points
 
 _MAX_RAYS = 90
-"""Limit of rays drawn per sensor; of more, every n-th is drawn."""
+"""Limit of rays drawn per sensor; beyond it, every n-th ray is drawn."""
 _MAX_POINTS = 20_000
-"""Limit of points drawn per sensor; of more, every n-th is drawn."""
+"""Limit of points drawn per sensor; beyond it, every n-th point is drawn."""
 _RIM_POINTS = 24
 _BLUE = (90, 150, 255, 255)
 _AMBER = (242, 177, 52, 255)

@@ -6,7 +6,7 @@ from .world.manifest import Fog, SceneSettings
 
 
 def scene_settings(world: World) -> SceneSettings:
-    """Return the settings in <scene> for a client."""
+    """Return the settings of <scene> for a client."""
     scene, fog = world.scene, world.scene.fog
     return SceneSettings(
         ambient=scene.ambient[:3],

@@ -68,7 +68,7 @@ def main() -> None:
     _receive(page, loop)
     with contextlib.suppress(TimeoutError):
         loop.run(page.stop(), _STOP_TIMEOUT_S)
-    os._exit(0)  # nothing else needs a clean end
+    os._exit(0)  # at once: nothing else needs a clean end
 
 
 async def _serve(start: Start, loop: GraphLoop, listening: socket.socket, at: PageAddress, pipe: OwnerPipe) -> Page:

@@ -65,7 +65,7 @@ class ServerProcess:
         return self._process.pid
 
     def send(self, message: ToServer) -> None:
-        """Send a message; what it shows is sent again to a server that is started later."""
+        """Send a message; the shown state is sent again to a server that is started later."""
         with self._lock:
             self._state.record(message)
             self._outgoing.put(message)
@@ -84,7 +84,7 @@ class ServerProcess:
         self._thread.join()
 
     def _launch(self) -> "tuple[subprocess.Popen[bytes], _Outgoing]":
-        """Start a process, and the thread that sends it its start and all that is shown."""
+        """Start a process, and the thread that sends it the first message and the shown state."""
         process = subprocess.Popen(
             [sys.executable, "-P", "-m", "trundle.page.server"],
             stdin=subprocess.PIPE,
@@ -158,7 +158,7 @@ class ServerProcess:
             self.replies.put(addresses)
 
     def _follow(self, message: FromServer) -> None:
-        """Remember what the next server continues."""
+        """Store the state of the server that the next one continues."""
         if isinstance(message, Request):
             self._change_start(last_request=message.id)
         elif isinstance(message, Uploaded):

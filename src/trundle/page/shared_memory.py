@@ -20,7 +20,7 @@ class MemoryAddress(msgspec.Struct, frozen=True):
 
     path: str
     inode: int
-    """Identifies the file: a descriptor's path in /proc may name another file by now."""
+    """Identifies the file, since a descriptor's path in /proc may later name another file."""
 
 
 class SharedMemory:

@@ -1,4 +1,4 @@
-"""What a page shows: the messages that a server needs to show it anew."""
+"""State of a page: the messages from which a new server can show it again."""
 
 from collections.abc import Iterator
 
@@ -6,7 +6,7 @@ from .wire import AddFile, OpenMailbox, SetNotice, SetSession, SetWorld, ToServe
 
 
 class ShownState:
-    """Newest messages of the owner, by what they replace."""
+    """Newest messages of the owner; a message replaces the earlier one of the same kind and name."""
 
     def __init__(self) -> None:
         self._session: SetSession | None = None
@@ -16,7 +16,7 @@ class ShownState:
         self._mailboxes: dict[str, OpenMailbox] = {}
 
     def record(self, message: ToServer) -> None:
-        """Follow a message to the server."""
+        """Store a message to the server."""
         match message:
             case SetSession():
                 self._session = message

@@ -9,7 +9,7 @@ from ..wire import BagReferenceFile
 
 
 def compared_bag(file: Path) -> BagReferenceFile | None:
-    """Check a bag before anything starts; None: the file is no bag.
+    """Return the bag of a file after checking it, before a run starts; None: the file is no bag.
 
     Raises:
         BagError: the file cannot be read, or its index is damaged.

@@ -10,12 +10,12 @@ from trundle.ros import FramePoses, Layout, RecordedNumbers, TopicNumbers
 from trundle.sim.comparison import Comparison, Difference, NumberComparison, Numbers, Trajectory
 
 _RESTING = 1e-12
-"""Largest difference of what counts as one value."""
+"""Largest difference between two numbers that count as equal."""
 _MAX_SHOWN_ELEMENTS = 8
-"""Of longer arrays, only the element with the largest difference is shown."""
+"""Largest array of which all elements are shown; of a longer one, only the element with the largest difference is."""
 _ELEMENT = re.compile(r"\[\d+\]$")
 _PLACE = re.compile(r"\.(?:position|translation)\.[xyz]$|^/[^.]*\.position\[[^\]]*\]$")
-"""Paths of numbers that are places: of poses, or of joints."""
+"""Paths of positions: numbers of poses, or of joints."""
 
 
 class BagComparison:
@@ -134,7 +134,7 @@ class _TopicComparison(NumberComparison):
         self._paths = tuple(self._paths[at] for at in columns)
         self.topic = numbers.topic
         self.places = [at for at, column in enumerate(columns) if _PLACE.search(names[column])]
-        """Columns of numbers that are places."""
+        """Columns of positions."""
         compared = Numbers(
             names=tuple(names[at] for at in columns),
             times=numbers.times - reference.start,

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from trundle.ros import BagConnection, BagMessage, BagReader
 
 _TF_NS = 2_000_000_000
-"""Span of transforms in the state at a time [ns], as each message of /tf has only some of the transforms."""
+"""Span before a time whose transforms belong to the state [ns], since a message of /tf has only some transforms."""
 _FIRST_WINDOW_NS = 1_000_000_000
 
 

@@ -34,10 +34,10 @@ from .reference_samples import ReferenceSamples, reference_samples
 
 _PERIOD_S = 0.1
 _SAMPLE_S = 0.02
-"""Shortest time between two compared messages of a topic [s]; those between are not compared."""
+"""Shortest time between two compared messages of a topic [s]; messages in between are not compared."""
 _MAX_ROWS = 300
 _SIMULATED_S = 1e8
-"""Times below are simulated, not of a wall clock [s]."""
+"""Smaller times are simulated, larger ones are wall time [s]."""
 
 
 class ReferenceChannel(Channel):
@@ -188,7 +188,7 @@ class _Compared(msgspec.Struct, eq=False):
 
 
 class _TopicReader:
-    """Client of a topic's channel, which reads the numbers of its messages."""
+    """Client of a topic's channel, which reads the numbers in the messages."""
 
     is_view_only = True
 
@@ -236,7 +236,7 @@ class _TopicReader:
         return False
 
     def count_drop(self, channel: Channel) -> None:
-        """Count nothing: none is dropped."""
+        """Do nothing: no message is dropped."""
 
 
 def _read(path: Path, title: str) -> tuple[RecordedNumbers, ReferenceSamples]:

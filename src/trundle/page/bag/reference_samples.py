@@ -18,7 +18,7 @@ from .comparison import frame_trajectory
 _Array = NDArray[np.float64]
 _RATE_HZ = 50.0
 _MAX_BYTES = 32 * 1024 * 1024
-"""Limit of the frames' poses, and of the topics' numbers; of longer recordings clients get fewer samples."""
+"""Limits of the number of poses and of topics' numbers; clients get fewer samples of a longer recording."""
 _MAX_ELEMENTS = 64
 """Limit of an array's numbers, of which plots show a few at most."""
 _ELEMENT = re.compile(r"\[[^\]]*\]$")

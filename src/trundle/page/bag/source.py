@@ -24,7 +24,7 @@ from .reader import BagCursor, is_latched
 _STEP_NS = 100_000_000
 """Duration of a step [ns]."""
 _MAX_STEPS = 1_000_000
-"""Limit of steps in a bag, beyond which they are longer: a stamp of zero makes a bag fifty years long."""
+"""Limit of steps in a bag, beyond which a step is longer: a stamp of zero makes a bag fifty years long."""
 _MAX_READ_NS = 2_000_000_000
 """Limit of the span that is read at once [ns]; playback waits for slower reading."""
 _PAUSE_S = 0.5

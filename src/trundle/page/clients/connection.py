@@ -196,7 +196,7 @@ class Connection:
             self.send(RemoveStatus((_reduction_id(channel),)))
 
     def _report_reduction(self, channel: Hashable, reduction: Reduction, transfer_s: float) -> None:
-        """Tell the client why it gets less of a topic."""
+        """Tell the client why it gets smaller or fewer messages of a topic."""
         if isinstance(channel, Channel):
             self._reduced.add(channel)
             text = f"{channel.topic}: a message takes {transfer_s:.1f} s on this connection, {_REDUCTIONS[reduction]}"

@@ -53,7 +53,7 @@ class Hub:
         self.clients: set[Connection] = set()
         """Clients with channels."""
         self._connected: set[Connection] = set()
-        """These and those that only drive."""
+        """All clients, also those that only drive."""
         self.polled: list[Polled] = []
         self._session_id = session_id
         self._capabilities = capabilities

@@ -1,4 +1,4 @@
-"""Parts of a state that a ROS message holds: a newer message replaces an older one if it holds all of its parts."""
+"""Parts of a state that a ROS message holds: a newer message replaces an older one whose parts it all holds."""
 
 import struct
 from collections.abc import Hashable

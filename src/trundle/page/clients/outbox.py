@@ -26,9 +26,9 @@ _MAX_BATCH = 256
 _MAX_TRANSFER_S = 0.25
 """Transfer time above which a message blocks the others for too long; images and clouds are thinned to it."""
 _MAX_BLOCKING_S = 1.0
-"""Transfer time above which a message is not sent at all while there are others."""
+"""Transfer time above which a message is not sent while the client waits for other streams."""
 _PAUSES = 19
-"""Pause after a message that blocked the others, as a multiple of the time that it took."""
+"""Pause after a message that blocked the others, as a multiple of its transfer time."""
 _PART_S = 0.03
 """Transfer time of a part of a message [s]."""
 _MIN_PART_BYTES = 2048
@@ -71,7 +71,7 @@ class Outbox:
         self.is_shared = False
         """True if the client waits for several streams, of which none must block the others."""
         self.reduced: Callable[[Hashable, Reduction, float], None] = _ignore
-        """Called with a stream whose messages begin to be reduced, and the time that one takes [s]."""
+        """Called when a stream's messages begin to be reduced, with the stream and a message's transfer time [s]."""
         self._pace = Pace()
         self._flows: dict[Hashable, Flow] = {}
         self._queued: dict[Hashable, Flow] = {}
@@ -83,7 +83,7 @@ class Outbox:
         self._count = 0
         self._waiting_bytes = self._droppable_bytes = 0
         self._blocking: tuple[float, int] | None = None
-        """Message on its way that blocks the others: when it was sent, and the number of the first of its bytes."""
+        """Message in transfer that blocks the others: time of sending, and number of its first byte."""
         self._blocking_due_s = -math.inf
         """Time before which no other message may block."""
         self._is_watching = self._is_closed = self._is_due = False
@@ -152,7 +152,7 @@ class Outbox:
         self._write_soon()
 
     def beat(self) -> None:
-        """Send a mark even if there is nothing else, so that the client knows how late it is."""
+        """Send a mark even without other data, so that the client can measure its lag."""
         if not (self._is_closed or self._rest or self._queued or self._pace.awaits_echo):
             self._rest += self.mark_frame(self._pace.mark_now(self._loop.time()))
             self._write_soon()
@@ -279,7 +279,7 @@ class Outbox:
         return int(min(max(self._pace.rate * _PART_S, _MIN_PART_BYTES), MAX_BYTES))
 
     def _quick_flow(self, now_s: float) -> Flow | None:
-        """Return the flow that is next; one whose message blocks the others only after a long pause, or never."""
+        """Return the next flow; a flow whose message blocks the others comes only after a long pause, or never."""
         for flow in sorted(self._queued.values(), key=lambda flow: flow.start):
             message = flow.messages[0]
             transfer_s = self._pace.transfer_s(message.size)
@@ -347,7 +347,7 @@ def _ignore(stream: Hashable, reduction: Reduction, transfer_s: float) -> None:
 
 
 def _limit_unsent(sock: socket.socket) -> None:
-    """Limit what waits in the kernel."""
+    """Limit the number of unsent bytes in the kernel."""
     option = getattr(socket, "TCP_NOTSENT_LOWAT", None)
     with contextlib.suppress(OSError):  # not TCP
         if option is not None:

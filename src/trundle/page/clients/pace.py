@@ -1,4 +1,4 @@
-"""Pace of sending to one client, so that little waits on the way: in the kernel, the network and the client.
+"""Pace of sending to one client, so that few data are in transit: in the kernel, the network and the client.
 
 What waits there can neither be replaced by something newer nor overtaken. So marks are sent between the messages, and
 the client echoes each: our page once it has handled what came before, any other client as RFC 6455 has it answer a
@@ -14,13 +14,13 @@ from typing import NamedTuple
 _FIRST_BYTES = 24 * 1024
 """Bytes sent before the first echo."""
 _PATIENCE_S = 5.0
-"""Time after which a client that never echoed is taken to echo nothing; it is not paced."""
+"""Time after which a client without an echo is assumed never to echo; it is not paced."""
 _MIN_RATE, _FIRST_RATE = 8e3, 64e3
-"""Least rate, and rate assumed at first."""
+"""Lowest rate, and rate assumed at first."""
 _TARGET_S = 0.05
-"""Wait on the way above which the pace is reduced."""
+"""Queueing delay in transit above which the pace is reduced."""
 _MIN_HOLD_S, _MAX_HOLD_S = 0.1, 0.8
-"""Bounds of the time without an echo after which nothing more is sent."""
+"""Bounds of the time without an echo after which sending stops."""
 _MARK_S, _LIMITED_MARK_S = 0.1, 0.02
 """Period of marks; the shorter one for many data, and while data wait for the pace."""
 _BURST_S = 0.02
@@ -32,9 +32,9 @@ _FIRST_LEAP, _LEAP = 2.5, 1.3
 """Limit of the pace as a multiple of the highest rate at which data have arrived, before the first reduction and later.
 """
 _MIN_PAUSE_S = 0.05
-"""Pause between echoes that is remembered."""
+"""Shortest pause between echoes that is remembered."""
 _MIN_SAMPLE = 16 * 1024
-"""Bytes whose arrival together proves a rate."""
+"""Number of bytes whose arrival suffices to measure a rate."""
 _TOGETHER_S = 0.01
 """Time within which echoes count as one: a busy client sends many at once."""
 _MEMORY_S = 5.0
@@ -49,7 +49,7 @@ class _Mark(NamedTuple):
     arrived: int
     """Bytes known to have arrived when it was sent."""
     arrived_s: float
-    """Time at which this was known; if nothing else was on its way, the mark's own."""
+    """Time at which their arrival was known; with no other data in transit, the time of the mark."""
 
 
 class _Echo(NamedTuple):
@@ -116,7 +116,7 @@ class Pace:
 
     @property
     def sent(self) -> int:
-        """Number of all bytes sent."""
+        """Number of bytes sent so far."""
         return self._total
 
     @property
@@ -210,7 +210,7 @@ class Pace:
             self._pauses.append((now_s, pause_s))
 
     def _raise(self, echo: _Echo, mark: _Mark) -> None:
-        """Raise the rate to the one at which data have arrived since the last echo before the mark was sent."""
+        """Raise the rate to the measured rate of arrival since the last echo before the mark was sent."""
         span_s, size = echo.time_s - mark.arrived_s, echo.total - mark.arrived
         if size >= _MIN_SAMPLE:
             rate = size / max(span_s, 1e-4)
@@ -222,7 +222,7 @@ class Pace:
             self._averaged = echo
 
     def _adjust(self, echo: _Echo) -> None:
-        """Reduce the rate if data wait on the way; raise it if they wait here only."""
+        """Reduce the rate if data wait in transit; raise it if data wait only here."""
         now_s = echo.time_s
         if self._echoes and now_s - self._echoes[-1].time_s < _TOGETHER_S:
             self._echoes[-1] = echo._replace(delay_s=min(echo.delay_s, self._echoes[-1].delay_s))
@@ -236,7 +236,7 @@ class Pace:
         if wait_s > _TARGET_S and span_s >= self._while_s:
             arrived = (echo.total - first.total) / span_s
             self.rate = max(min(self.rate, 0.95 * arrived), _MIN_RATE)
-            self._budget = float(echo.total - self._total)  # nothing until that has arrived
+            self._budget = float(echo.total - self._total)  # stop until these data have arrived
             self._budget_s = self._reduced_s = now_s
             self._echoes.clear()
             self._growth, self._max_growth, self._leap = _SLOW_GROWTH, _MAX_GROWTH, _LEAP
@@ -254,7 +254,7 @@ class Pace:
 
     @property
     def _proven_rate(self) -> float:
-        """Highest rate at which data have arrived in the last seconds; with few data it would be too low."""
+        """Highest rate at which data have arrived in the last seconds; few data make it too low."""
         return max(self._proven.value, min(self.rate, _FIRST_RATE))
 
     @property
@@ -264,7 +264,7 @@ class Pace:
 
     @property
     def _pause_s(self) -> float:
-        """Longest pause between echoes that was not the only one of its kind."""
+        """Longest pause between echoes, without a single outlier."""
         longest = heapq.nlargest(2, (pause_s for _, pause_s in self._pauses))
         return longest[1] if len(longest) == 2 else 0.0
 

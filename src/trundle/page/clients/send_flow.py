@@ -103,11 +103,11 @@ class Flow:
         self.droppable_bytes = 0
         self.reduction: Reduction | None = None
         self.start = self.finish = 0.0
-        """Tags of the oldest message and of the message sent last [bytes]: the flow with the smallest start is next."""
+        """Start tags of the oldest message and of the last one sent [bytes]; the flow with the smallest tag is next."""
 
     @property
     def has_older(self) -> bool:
-        """True if a message may be dropped whatever its keys: it is not the stream's newest."""
+        """True if a message may be dropped regardless of its keys: it is not the stream's newest."""
         return next((m for m in self.messages if _may_drop(m)), self.messages[-1]) is not self.messages[-1]
 
     def drop_oldest(self) -> list[Message]:

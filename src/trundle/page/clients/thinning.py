@@ -31,7 +31,7 @@ _JPEG_QUALITY = 75
 
 
 def thinner(type_name: str, data: Buffer) -> Thin | None:
-    """Return what thins a message of a type; None: nothing does."""
+    """Return the function that thins messages of a type; None: they cannot be thinned."""
     thin = {
         "sensor_msgs/Image": _thin_image,
         "sensor_msgs/PointCloud2": _thin_cloud,
@@ -167,7 +167,7 @@ def _thin_jpeg(data: memoryview, max_bytes: int) -> Buffer | None:
 
 
 def _smaller_jpeg(data: memoryview, max_bytes: int) -> bytes | None:
-    """Return a JPEG with fewer pixels; None: it has too many to be decoded here."""
+    """Return a JPEG with fewer pixels; None: the original has too many pixels to be decoded here."""
     from PIL import Image
 
     share = math.sqrt(max_bytes / len(data))
@@ -176,7 +176,7 @@ def _smaller_jpeg(data: memoryview, max_bytes: int) -> bytes | None:
             if image.width * image.height > _MAX_PIXELS:
                 return None
             size = max(1, int(image.width * share)), max(1, int(image.height * share))
-            image.draft(None, size)  # decodes an eighth of the pixels where that is enough
+            image.draft(None, size)  # decodes at a reduced scale where that suffices
             smaller = io.BytesIO()
             image.resize(size).save(smaller, "JPEG", quality=_JPEG_QUALITY)
             return smaller.getvalue()

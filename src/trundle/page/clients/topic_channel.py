@@ -11,7 +11,7 @@ from .message_keys import MessageKeys
 from .thinning import thinner
 
 _NEVER_DROPPED = ("visualization_msgs/", "map_msgs/", "nav_msgs/OccupancyGrid", "rosgraph_msgs/Log")
-"""Types whose messages depend on earlier ones, markers and maps, and lines of logs."""
+"""Types whose messages depend on earlier ones (markers, maps), and logs."""
 _LINGER_S = 1.0
 """Time that a subscription outlives its last client, which may resubscribe: a new connection would lose messages."""
 

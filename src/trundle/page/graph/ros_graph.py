@@ -240,7 +240,7 @@ class RosGraph:
             case UnsubscribeConnectionGraph():
                 self._graph_clients.discard(client)
             case Drive() if client.speaks_trundle:
-                if self._has_state:  # before, the topic's type is unknown; the client repeats the command
+                if self._has_state:  # the topic's type is still unknown; the client repeats the command
                     self._driving.drive(client, operation, self._state.types)
             case Release(topic) if client.speaks_trundle:
                 self._driving.release(client, topic)
@@ -257,7 +257,7 @@ class RosGraph:
         task = asyncio.get_running_loop().create_task(_report_errors(client, work))
         tasks.add(task)
         task.add_done_callback(tasks.discard)
-        task.add_done_callback(lambda _: work.close())  # a task that is cancelled at once never starts it
+        task.add_done_callback(lambda _: work.close())  # a task that is cancelled at once never starts its coroutine
 
 
 async def _report_errors(client: Connection, work: Coroutine[Any, Any, None]) -> None:

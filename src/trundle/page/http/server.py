@@ -96,7 +96,7 @@ class HttpServer:
 
     async def start(self, listening: socket.socket) -> None:
         """Serve connections of a listening socket."""
-        logging.getLogger("aiohttp").setLevel(logging.CRITICAL)  # it logs tracebacks for malformed requests
+        logging.getLogger("aiohttp").setLevel(logging.CRITICAL)  # aiohttp would log tracebacks of malformed requests
         app = web.Application(middlewares=[self._answer])
         app.router.add_get("/session.json", self._session)
         app.router.add_get("/world/{name:.*}", self._world_file)
@@ -244,7 +244,7 @@ class HttpServer:
         except Exception:
             _log.exception("a client could not be served")
         finally:
-            self._page.leave(client)  # first: this stops a robot that it drove
+            self._page.leave(client)  # first, since this stops a robot that the client drove
             await client.outbox.drain(_CLOSE_TIMEOUT_S)
             client.outbox.close()
             transport.abort()  # otherwise aiohttp would write its own closing frame

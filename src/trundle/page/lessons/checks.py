@@ -74,7 +74,7 @@ class FrameMovedCheck(_Check, frozen=True, tag="frame_moved"):
 
     frame: str
     reference: str
-    """Frame in which its position is measured."""
+    """Frame in which the position is measured."""
     distance: _Distance
     """[m]"""
 

@@ -40,7 +40,7 @@ class Lesson(Struct, frozen=True, kw_only=True):
 
     title: str
     start: str
-    """Command that starts what the lesson needs; empty: it needs nothing."""
+    """Command that starts the lesson's world and nodes; empty: the lesson needs none."""
     needs: tuple[StatedCheck, ...]
-    """Alternatives, one of which is fulfilled in what the lesson needs."""
+    """Alternative checks: one of them is fulfilled once that command runs."""
     steps: tuple[LessonStep, ...]

@@ -36,7 +36,7 @@ class ModelDocument:
         return self._document.line(element) or 1
 
     def parts(self) -> Iterator[tuple[Part, XmlElement]]:
-        """Yield every part in the model with its address, in file order; of two with the same name only the first."""
+        """Yield every part in the model with its address, in file order; of parts with the same name only the first."""
         addresses: set[Part] = set()
         for part, element in _below((), self.model):
             if part not in addresses:

@@ -229,7 +229,7 @@ class Draft:
         return next((name for name in links if name != child), WORLD), child
 
     def _right_edge(self) -> float:
-        """Return the x coordinate at which a new link is next to all others [m]."""
+        """Return the x coordinate at which a new link stands beside all others [m]."""
         links = self.checked.model.links
         edges = [k.model_from_link.position[0] + _bounding_radius(c.geometry) for k in links for c in k.collisions]
         return round(max(edges) + 0.5 + _GAP_M, 2) if edges else 0.0

@@ -6,7 +6,7 @@ from trundle.sim.simulation import Simulation
 from ..world.profile import ProfilePart
 
 _PERIOD = 31
-"""Every n-th stride is timed, as timing costs 1/15 of a small robot's step; a prime, not to coincide with hooks."""
+"""Timing costs 1/15 of a small robot's step, so every n-th stride is timed; a prime, unlike the periods of hooks."""
 
 
 class PhysicsShares:
@@ -16,7 +16,7 @@ class PhysicsShares:
         self._simulation = simulation
         self._strides = 0
         self._timer: StepTimer | None = None
-        """Running timer of the coming stride."""
+        """Running timer of the next stride."""
         self._times: list[StepTimes] = []
 
     def end_stride(self) -> None:

@@ -13,7 +13,7 @@ from ..world.profile import Profile, ProfilePart
 from .part_names import LoopPart, group_and_name
 from .physics_shares import PhysicsShares
 
-if TYPE_CHECKING:  # without a graph, its modules are not loaded
+if TYPE_CHECKING:  # lazy: only runs with a graph load it
     from trundle.ros import GraphLoop
 
 _PHYSICS = StridePart.PHYSICS
@@ -78,7 +78,7 @@ class StrideProfile:
         self._costs: dict[int, float] = {}
         """Wall time of parts [ns], by the part's id as above."""
         self._inner_ns = 0
-        """Time attributed already since the last lap [ns]."""
+        """Time since the last lap that is already attributed [ns]."""
         self._start = (self._simulation.simulated_ns, self._simulation.simulated_steps)
         self._graph_start_ns = self._graph_ns
         self._start_ns = self._last_ns = self._wall_ns()

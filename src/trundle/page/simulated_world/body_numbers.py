@@ -16,7 +16,7 @@ class BodyNumbers:
     def __init__(self) -> None:
         self._numbers: dict[str, int] = {}
         self._reserved: frozenset[int] = frozenset()
-        """Numbers of links that the last update removed; a page may still draw them."""
+        """Numbers of the links that the last update removed; a page may still draw these links."""
         self._rows = np.zeros((0, 7))
         self._order = np.zeros(0, dtype=np.intp)
 

@@ -78,7 +78,7 @@ def _read(file: Path) -> bytes:
 
 
 def _release(code: Mapping[Path, bytes]) -> None:
-    """Write the contents that the user consented to; the held files may have changed since."""
+    """Write the files' contents to which the user consented; the held files may have changed since."""
     for file, content in code.items():
         if file.name.endswith(HELD_SUFFIX):
             write_atomically(file.with_name(file.name.removesuffix(HELD_SUFFIX)), content)

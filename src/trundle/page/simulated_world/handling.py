@@ -12,7 +12,7 @@ from trundle.spatial import NS_PER_S, Pose, Twist, Vector3, Wrench, cross
 _STIFFNESS = 40.0
 """Stiffness of the pulling spring per mass of the model [1/s²]: its weight stretches it by a quarter of a metre."""
 _MAX_STRETCH = 5.0
-"""Stretch of the pulling spring at which its force stops growing [m]."""
+"""Stretch of the pulling spring beyond which the force does not grow [m]."""
 _MAX_RATE = 0.5
 """Limit of the natural frequency of spring and link times the time step; the spring is unstable above 2."""
 

@@ -13,7 +13,7 @@ _MAX_LINES = 200
 
 
 def plugin_lines(simulation: Simulation) -> list[Line]:
-    """Return the lines that plugins draw; beyond the limit, the first lines with their newest points."""
+    """Return the lines that plugins draw; beyond the limit, only the first ones, each with its newest points."""
     lines: list[Line] = []
     remaining = MAX_LINE_POINTS
     for name, line in islice(simulation.lines.items(), _MAX_LINES):

@@ -39,7 +39,7 @@ class LiveComparison:
         self.stop(former)
         try:
             self._start(reference.of_other(simulation))
-        except UsageError:  # the other world has none of its models
+        except UsageError:  # the new world has none of the recording's models
             return
 
     def open(self, reference: Reference) -> None:

@@ -39,7 +39,7 @@ class PerformanceStream:
         self._due_ns = 0
 
     def begin_page(self) -> None:
-        """Count the time since the strides; the page's own time starts here."""
+        """Attribute the time since the strides; from here on, the page's own time counts."""
         if self._profile is not None and self._profile.is_on:
             self._profile.lap(self._after_strides)
 

@@ -22,7 +22,7 @@ class SavedModel(Struct, frozen=True, kw_only=True, eq=False):
     """Positions of the joints' axes [rad or m]."""
     velocities: NDArray[np.float64]
     wrenches: tuple[tuple[Wrench, float | None], ...]
-    """Wrench on each link, and its remaining duration [s]; None: until it is replaced."""
+    """Wrench on each link, and the wrench's remaining duration [s]; None: until it is replaced."""
     commands: tuple[tuple[TimedCommand, ...], ...]
     """Commands of each joint's axes."""
     is_held: bool

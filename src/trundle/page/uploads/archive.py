@@ -14,7 +14,7 @@ from .tree import MAX_FILES, UploadTree
 
 _CHUNK_BYTES = 1024 * 1024
 _MAX_DIRECTORY_BYTES = 4 * _CHUNK_BYTES
-"""Limit of the central directory, which `ZipFile` reads whole."""
+"""Limit of the central directory, which `ZipFile` reads at once."""
 _ENCRYPTED = 1
 """Flag of encrypted entries."""
 

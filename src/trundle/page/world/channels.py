@@ -70,9 +70,9 @@ class StreamChannel(Channel):
         self._due_s = 0.0
         self._mailbox: Mailbox | None = None
         self._read: bytes | None = None
-        """Message that is read but not sent."""
+        """Message that was read from the mailbox but not yet sent."""
         self._behind: set[Client] = set()
-        """Clients that do not have the whole newest message."""
+        """Clients that have not received the newest message in full."""
 
     def open(self, mailbox: Mailbox) -> None:
         """Replace the mailbox."""
@@ -153,7 +153,7 @@ class RowsChannel(StreamChannel):
         self._world = world
 
     def is_current(self, message: bytes) -> bool:
-        return ARRAY_HEADER.unpack_from(message)[1] == self._world.generation  # a newer one's manifest is on its way
+        return ARRAY_HEADER.unpack_from(message)[1] == self._world.generation  # a newer one's manifest will follow
 
 
 class PosesChannel(RowsChannel):

@@ -56,7 +56,7 @@ class PeopleChannel(Channel):
             self._has_changed = True
 
     def poll(self, now_s: float, time_ns: int) -> bool:
-        """Send the list if it has changed and is due; return False, as nothing comes from the owner."""
+        """Send the list if it has changed and is due; return False, since the data are not the owner's."""
         if self._has_changed and now_s >= self._due_s:
             self._has_changed, self._due_s = False, now_s + _PERIOD_S
             people = tuple(sorted(self._people.values(), key=lambda person: person.number))

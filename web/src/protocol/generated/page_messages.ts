@@ -783,9 +783,9 @@ export interface OpenedLesson {
 /** Lesson. */
 export interface Lesson {
   readonly title: string;
-  /** Command that starts what the lesson needs; empty: it needs nothing. */
+  /** Command that starts the lesson's world and nodes; empty: the lesson needs none. */
   readonly start: string;
-  /** Alternatives, one of which is fulfilled in what the lesson needs. */
+  /** Alternative checks: one of them is fulfilled once that command runs. */
   readonly needs: readonly StatedCheck[];
   readonly steps: readonly LessonStep[];
 }
@@ -845,7 +845,7 @@ export interface MovedCheck {
 export interface FrameMovedCheck {
   readonly check: "frame_moved";
   readonly frame: string;
-  /** Frame in which its position is measured. */
+  /** Frame in which the position is measured. */
   readonly reference: string;
   /** [m] */
   readonly distance: number;
