@@ -66,13 +66,25 @@ bool BufferCore::setTransform(const geometry_msgs::TransformStamped& transform, 
     ROS_ERROR("TF: Ignoring transform from authority \"%s\" %s", authority.c_str(), fault.c_str());
     return false;
   }
+  if (!store(
+          child,
+          {transform.header.stamp, parent, Vector3(t.translation.x, t.translation.y, t.translation.z), q.normalized()},
+          authority, is_static))
+    return false;
+  const std::lock_guard<std::recursive_mutex> lock(listeners_mutex_);
+  const std::map<size_t, boost::function<void()> > listeners = listeners_;
+  for (const auto& entry : listeners) entry.second();
+  return true;
+}
+
+bool BufferCore::store(const std::string& child, const Sample& sample, const std::string& authority, bool is_static) {
   const std::lock_guard<std::recursive_mutex> lock(mutex_);
-  names_[child] = names_[parent] = true;
+  names_[child] = names_[sample.parent] = true;
   Frame& frame = frames_[child];
   if (is_static || frame.is_static) frame.samples.clear();
   frame.is_static = is_static;
   frame.authority = authority;
-  const ros::Time& stamp = transform.header.stamp;
+  const ros::Time& stamp = sample.stamp;
   if (!frame.samples.empty()) {
     const ros::Time latest = frame.samples.rbegin()->first;
     if (latest > stamp && latest - stamp > cache_time_) {
@@ -84,8 +96,19 @@ bool BufferCore::setTransform(const geometry_msgs::TransformStamped& transform, 
            std::max(latest, stamp) - frame.samples.begin()->first > cache_time_)
       frame.samples.erase(frame.samples.begin());
   }
-  frame.samples[stamp] = {stamp, parent, Vector3(t.translation.x, t.translation.y, t.translation.z), q.normalized()};
+  frame.samples[stamp] = sample;
   return true;
+}
+
+size_t BufferCore::addTransformsListener(const boost::function<void()>& listener) {
+  const std::lock_guard<std::recursive_mutex> lock(listeners_mutex_);
+  listeners_[next_listener_] = listener;
+  return next_listener_++;
+}
+
+void BufferCore::removeTransformsListener(size_t number) {
+  const std::lock_guard<std::recursive_mutex> lock(listeners_mutex_);
+  listeners_.erase(number);
 }
 
 bool BufferCore::find(const Frame& frame, const std::string& name, const ros::Time& time, Sample& sample,

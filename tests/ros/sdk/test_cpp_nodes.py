@@ -9,81 +9,18 @@ import socket
 import struct
 import subprocess
 import sys
-from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
 import pytest
 from tests.graphs import Graph, until
+from tests.ros.sdk.conftest import SOURCE, WAIT_S, Running, require_compiler
 
-from trundle.base.diagnostics import UsageError
 from trundle.ros import Messages
-from trundle.ros.sdk import Headers, PackageBuilder, compiled_kit, find_toolchain
+from trundle.ros.sdk import Headers, Kit, PackageBuilder, find_toolchain, kit_sources
 
 pytestmark = pytest.mark.slow
-_SOURCE = Path(__file__).parents[2] / "data/sdk/src"
-_WAIT_S = 120
-
-
-def _require_compiler() -> None:
-    try:
-        find_toolchain(os.environ)
-    except UsageError as error:
-        pytest.skip(str(error))
-
-
-@pytest.fixture(scope="module")
-def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The compiled workspace, with one target more that cannot be compiled."""
-    _require_compiler()
-    base = tmp_path_factory.mktemp("ws")
-    shutil.copytree(_SOURCE, base / "src")
-    package = base / "src/cpp_nodes"
-    (package / "src/plan.cpp").write_text("#include <moveit/no_such_header.h>\nint main() {}\n")
-    cmake = package / "CMakeLists.txt"
-    text = cmake.read_text().replace("roscpp std_msgs geometry_msgs", "roscpp std_msgs geometry_msgs no_such_arm")
-    cmake.write_text(f"{text}\nfind_package(NoSuchLibrary REQUIRED)\nadd_executable(plan src/plan.cpp)\n")
-    environment = {name: value for name, value in os.environ.items() if name != "CMAKE_PREFIX_PATH"}
-    done = subprocess.run(
-        [sys.executable, "-m", "trundle", "--as", "catkin_make", "-DCMAKE_BUILD_TYPE=None"],
-        cwd=base,
-        env={**environment, "PWD": str(base)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    (base / "log").write_text(done.stdout + done.stderr)
-    assert done.returncode == 1, done.stdout + done.stderr
-    return base
-
-
-class Running:
-    """Started programs of the workspace."""
-
-    def __init__(self, workspace: Path, uri: str) -> None:
-        self.folder = workspace / "devel/lib"
-        self.environment = {**os.environ, "ROS_MASTER_URI": uri, "ROS_PACKAGE_PATH": str(workspace / "src")}
-        self.processes: list[subprocess.Popen[str]] = []
-
-    def start(self, name: str, *arguments: str, package: str = "cpp_nodes") -> "subprocess.Popen[str]":
-        process = subprocess.Popen(
-            [str(self.folder / package / name), *arguments],
-            env=self.environment,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-        )
-        self.processes.append(process)
-        return process
-
-
-@pytest.fixture
-def running(workspace: Path, graph: Graph) -> Iterator[Running]:
-    programs = Running(workspace, graph.core.uri)
-    yield programs
-    for process in programs.processes:
-        process.kill()
-        process.communicate()
+_SANITIZERS = "-fsanitize=address,undefined -fno-sanitize-recover=all -O1 -g1"
 
 
 def test_each_target_is_reported(workspace: Path) -> None:
@@ -109,7 +46,7 @@ def test_only_headers_of_the_kit_are_used(workspace: Path) -> None:
 
 def test_the_checks_of_the_api_pass(running: Running) -> None:
     process = running.start("checks", "--kept", "from:=to", "_from_command_line:=1.25", "_flag:=true")
-    output, _ = process.communicate(timeout=_WAIT_S)
+    output, _ = process.communicate(timeout=WAIT_S)
 
     assert re.search(r"^\d\d+ checks, 0 failed$", output, re.MULTILINE), output
     assert process.returncode == 0
@@ -143,7 +80,7 @@ def test_a_talker_and_a_service_answer_python_nodes(running: Running, graph: Gra
 
     for process in (talker, server):
         process.send_signal(signal.SIGINT)
-        output, _ = process.communicate(timeout=_WAIT_S)
+        output, _ = process.communicate(timeout=WAIT_S)
         assert process.returncode == 0
     assert "bye" in output, "the program goes on after spin()"
 
@@ -259,7 +196,7 @@ def test_frames_are_those_of_the_graph(running: Running, graph: Graph, messages:
     tree = [{"header": header, "child_frame_id": "mast", "transform": transform}]
     static.publish(messages.new("tf2_msgs/TFMessage", {"transforms": tree}))
     process = running.start("frames", "mast", package="cpp_frames")
-    output, _ = process.communicate(timeout=_WAIT_S)
+    output, _ = process.communicate(timeout=WAIT_S)
 
     assert re.search(r"^\d{3} checks, 0 failed$", output, re.MULTILINE), output
     assert process.returncode == 0
@@ -268,31 +205,53 @@ def test_frames_are_those_of_the_graph(running: Running, graph: Graph, messages:
 
 def test_an_action_runs_is_canceled_and_replaced(running: Running) -> None:
     process = running.start("count", "--check", package="cpp_actions")
-    output, _ = process.communicate(timeout=_WAIT_S)
+    output, _ = process.communicate(timeout=WAIT_S)
 
     assert re.search(r"^14 checks, 0 failed$", output, re.MULTILINE), output
     assert process.returncode == 0
 
 
-@pytest.mark.parametrize("sanitizers", ["address,undefined"])
-def test_the_checks_pass_with_sanitizers(tmp_path: Path, graph: Graph, sanitizers: str) -> None:
-    _require_compiler()
-    toolchain = find_toolchain(os.environ)
-    flags = f"-fsanitize={sanitizers} -fno-sanitize-recover=all -O1 -g"
-    kit = compiled_kit(toolchain, os.environ, flags=flags)
+def test_goals_are_worked_on_at_the_same_time(running: Running) -> None:
+    process = running.start("many", package="cpp_actions")
+    output, _ = process.communicate(timeout=WAIT_S)
+
+    assert re.search(r"^\d\d checks, 0 failed$", output, re.MULTILINE), output
+    assert process.returncode == 0
+
+
+@pytest.fixture
+def sanitized_kit(tmp_path: Path) -> Kit:
+    """The libraries of roscpp alone, compiled with sanitizers."""
+    require_compiler()
+    toolchain, sources, folder = find_toolchain(os.environ), kit_sources(), tmp_path / "kit"
+    headers = Headers({}, folder / "include", folder / "include", provided=sources)
+    headers.write_included([sources])
+    configure = [
+        *(toolchain.cmake, "-S", sources, "-B", tmp_path / "kit_build", "-G", "Ninja"),
+        *(f"-DCMAKE_MAKE_PROGRAM={toolchain.ninja}", f"-DCMAKE_CXX_COMPILER={toolchain.compiler}"),
+        *(f"-DCMAKE_CXX_FLAGS={_SANITIZERS}", "-DCMAKE_BUILD_TYPE=None", f"-DTRUNDLE_MESSAGES={folder / 'include'}"),
+        *(f"-DCMAKE_LIBRARY_OUTPUT_DIRECTORY={folder / 'lib'}", f"-DTRUNDLE_BOOST={toolchain.boost or '/usr'}/include"),
+    ]
+    subprocess.run(configure, check=True)
+    subprocess.run([toolchain.ninja, "-C", tmp_path / "kit_build", "roscpp", "roslib"], check=True)
+    return Kit(sources, folder)
+
+
+def test_the_checks_pass_with_sanitizers(sanitized_kit: Kit, tmp_path: Path, graph: Graph) -> None:
     package = tmp_path / "src/cpp_nodes"
-    shutil.copytree(_SOURCE / "cpp_nodes", package)
+    shutil.copytree(SOURCE / "cpp_nodes", package)
     builder = PackageBuilder(
-        kit,
-        toolchain,
+        sanitized_kit,
+        find_toolchain(os.environ),
         build=tmp_path / "build",
         devel=tmp_path / "devel",
         install=tmp_path / "install",
         underlays=[],
-        definitions=[f"-DCMAKE_CXX_FLAGS={flags}"],
+        definitions=[f"-DCMAKE_CXX_FLAGS={_SANITIZERS}", "-DCMAKE_BUILD_TYPE=None"],
         environment=os.environ,
     )
-    headers = Headers({"cpp_nodes": package}, tmp_path / "devel/include", kit.folder / "include", provided=kit.sources)
+    include = sanitized_kit.folder / "include"
+    headers = Headers({"cpp_nodes": package}, tmp_path / "devel/include", include, provided=sanitized_kit.sources)
     headers.write_package("cpp_nodes")
     headers.write_included([package])
     *lines, result = builder.build("cpp_nodes", package, jobs=None, targets=["checks"])
@@ -300,6 +259,6 @@ def test_the_checks_pass_with_sanitizers(tmp_path: Path, graph: Graph, sanitizer
     assert result.failures == {}, lines
     arguments = ("--kept", "from:=to", "_from_command_line:=1.25", "_flag:=true")
     process = Running(tmp_path, graph.core.uri).start("checks", *arguments)
-    output, _ = process.communicate(timeout=_WAIT_S)
+    output, _ = process.communicate(timeout=10 * WAIT_S)
     assert process.returncode == 0, output
     assert "0 failed" in output

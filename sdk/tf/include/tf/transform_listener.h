@@ -43,6 +43,7 @@ class Transformer {
   void getFrameStrings(std::vector<std::string>& ids) const { buffer_->getFrameStrings(ids); }
   std::string allFramesAsString() const { return buffer_->allFramesAsString(); }
   ros::Duration getCacheLength() const { return buffer_->getCacheLength(); }
+  boost::shared_ptr<tf2_ros::Buffer> getTF2BufferPtr() { return buffer_; }
 
   void transformQuaternion(const std::string& target_frame, const Stamped<Quaternion>& in,
                            Stamped<Quaternion>& out) const;

@@ -4,6 +4,7 @@
 #include <ros/duration.h>
 #include <ros/time.h>
 
+#include <boost/function.hpp>
 #include <map>
 #include <mutex>
 #include <string>
@@ -47,6 +48,9 @@ class BufferCore {
   ros::Time getLatestCommonTime(const std::string& target_frame, const std::string& source_frame) const;
   std::string allFramesAsString() const;
   std::string allFramesAsYAML() const;
+  /** Call a function after each transform that is set, in that thread, until the number that is returned is removed. */
+  size_t addTransformsListener(const boost::function<void()>& listener);
+  void removeTransformsListener(size_t number);
 
  private:
   struct Sample {
@@ -65,6 +69,7 @@ class BufferCore {
     std::vector<std::pair<std::string, Transform> > frames;
     std::string fault;
   };
+  bool store(const std::string& child, const Sample& sample, const std::string& authority, bool is_static);
   bool find(const Frame& frame, const std::string& name, const ros::Time& time, Sample& sample,
             std::string& fault) const;
   Way wayUp(const std::string& from, const ros::Time& time, const std::string& until) const;
@@ -77,6 +82,9 @@ class BufferCore {
   ros::Duration cache_time_;
   std::map<std::string, Frame> frames_;
   std::map<std::string, bool> names_;
+  std::recursive_mutex listeners_mutex_;
+  std::map<size_t, boost::function<void()> > listeners_;
+  size_t next_listener_ = 1;
 };
 
 }  // namespace tf2

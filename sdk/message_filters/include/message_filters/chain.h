@@ -1,0 +1,81 @@
+#pragma once
+
+#include <typeinfo>
+#include <vector>
+
+#include "message_filters/pass_through.h"
+
+namespace message_filters {
+
+/** Base of chains of any type. */
+class ChainBase {
+ public:
+  virtual ~ChainBase() {}
+  /** Filter of a chain by its number; null if there is none, or it has another type. */
+  template <class F>
+  boost::shared_ptr<F> getFilter(size_t index) const {
+    const boost::shared_ptr<void> filter = index < filters_.size() ? filters_[index].filter : boost::shared_ptr<void>();
+    if (!filter || *filters_[index].type != typeid(F)) return boost::shared_ptr<F>();
+    return boost::static_pointer_cast<F>(filter);
+  }
+
+ protected:
+  struct Filter {
+    boost::shared_ptr<void> filter;
+    const std::type_info* type;
+  };
+  std::vector<Filter> filters_;
+};
+typedef boost::shared_ptr<ChainBase> ChainBasePtr;
+
+/** Filters one behind the other, as one filter. */
+template <class M>
+class Chain : public ChainBase, public SimpleFilter<M> {
+ public:
+  typedef boost::shared_ptr<M const> MConstPtr;
+  typedef ros::MessageEvent<M const> EventType;
+
+  Chain() {}
+  template <class F>
+  explicit Chain(F& f) {
+    connectInput(f);
+  }
+  ~Chain() {
+    incoming_.disconnect();
+    outgoing_.disconnect();
+  }
+
+  /** Add a filter at the end; its number is returned. A plain pointer stays the caller's. */
+  template <class F>
+  size_t addFilter(F* filter) {
+    return addFilter(boost::shared_ptr<F>(filter, [](F*) {}));
+  }
+  template <class F>
+  size_t addFilter(const boost::shared_ptr<F>& filter) {
+    typedef typename SimpleFilter<M>::EventCallback EventCallback;
+    const EventCallback in([filter](const EventType& e) { filter->add(e); });
+    outgoing_.disconnect();
+    if (filters_.empty()) first_ = in;
+    else connect_last_(in);
+    connect_last_ = [filter](const EventCallback& callback) { return filter->registerCallback(callback); };
+    outgoing_ = connect_last_([this](const EventType& e) { this->signalMessage(e); });
+    filters_.push_back(ChainBase::Filter{filter, &typeid(F)});
+    return filters_.size() - 1;
+  }
+  template <class F>
+  void connectInput(F& f) {
+    incoming_.disconnect();
+    incoming_ = f.registerCallback(typename SimpleFilter<M>::EventCallback([this](const EventType& e) { add(e); }));
+  }
+  void add(const MConstPtr& message) { add(EventType(message)); }
+  void add(const EventType& event) {
+    if (first_) first_(event);
+  }
+
+ private:
+  typename SimpleFilter<M>::EventCallback first_;
+  boost::function<Connection(const typename SimpleFilter<M>::EventCallback&)> connect_last_;
+  Connection incoming_, outgoing_;
+};
+
+}  // namespace message_filters

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <tf2_ros/message_filter.h>
+
+#include "tf/transform_listener.h"
+
+namespace tf {
+
+namespace filter_failure_reasons = tf2_ros::filter_failure_reasons;
+typedef tf2_ros::FilterFailureReason FilterFailureReason;
+typedef tf2_ros::MessageFilterBase MessageFilterBase;
+
+/** Filter that passes messages on once their frame can be transformed to all target frames at their stamp. */
+template <class M>
+class MessageFilter : public tf2_ros::MessageFilter<M> {
+ public:
+  /** `queue_size`: messages that wait; the oldest is dropped. The time between tests is of no use: transforms wake it.
+   */
+  MessageFilter(Transformer& tf, const std::string& target_frame, uint32_t queue_size,
+                ros::NodeHandle nh = ros::NodeHandle(), ros::Duration = ros::Duration(0.01))
+      : tf2_ros::MessageFilter<M>(*tf.getTF2BufferPtr(), target_frame, queue_size, nh) {}
+  template <class F>
+  MessageFilter(F& f, Transformer& tf, const std::string& target_frame, uint32_t queue_size,
+                ros::NodeHandle nh = ros::NodeHandle(), ros::Duration = ros::Duration(0.01))
+      : tf2_ros::MessageFilter<M>(f, *tf.getTF2BufferPtr(), target_frame, queue_size, nh) {}
+};
+
+}  // namespace tf
