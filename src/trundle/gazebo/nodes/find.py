@@ -102,6 +102,8 @@ def find_node(
             elif target is None or (folder.parent.name != "share" and can_run(path, env)):
                 return Executable(path)
     if target is not None:
+        if type_name == "nodelet" and (program := _compiled_nodelet(arguments, find_package, env)) is not None:
+            return Executable(program)
         missing = _find_missing_nodelet(arguments, find_package, env, command_line) if type_name == "nodelet" else None
         return missing or BuiltinReplacement(target)
     for built in () if folder is None else _built_programs(package, type_name, folder, env):
@@ -190,6 +192,24 @@ def _find_missing_nodelet(
             return MissingNode(missing_nodelet(name, find_package, env, remaining))
         case _:
             return None
+
+
+def _compiled_nodelet(arguments: str, find_package: FindPackage, env: Mapping[str, str]) -> Path | None:
+    """Return the C++ development kit's `nodelet`, which catkin_make links into workspaces with nodelets.
+
+    It loads the nodelets that are compiled there; those with a replacement need neither it nor its managers.
+    """
+    folders = [Path(entry, "_") for entry in env.get("ROS_PACKAGE_PATH", "").split(os.pathsep) if entry]
+    match arguments.split():
+        case ["load" | "standalone", name, *_]:
+            folder = None if name in NODELETS else find_package(name.partition("/")[0])
+            folders = [] if folder is None else [folder]
+        case ["manager" | "unload", *_]:
+            pass
+        case _:
+            return None
+    homes = (home for folder in folders for home in program_folders("nodelet", folder, env))
+    return next((home / "nodelet" for home in homes if (home / "nodelet").is_symlink()), None)
 
 
 def _built_programs(package: str, name: str, folder: Path, env: Mapping[str, str]) -> Iterator[Path]:

@@ -1,6 +1,8 @@
 """The development kit: its sources, and its libraries, compiled once per compiler into the user's cache."""
 
 import hashlib
+import os
+import re
 import shutil
 import subprocess
 import sys
@@ -70,6 +72,27 @@ def compiled_kit(toolchain: Toolchain, environment: Mapping[str, str], *, flags:
     return Kit(sources, folder)
 
 
+def link_programs(kit: Kit, packages: Mapping[str, Path], devel: Path) -> None:
+    """Link the kit's programs, such as nodelet, into a devel space whose packages depend on theirs.
+
+    Args:
+        kit: compiled kit.
+        packages: name → folder of the workspace's packages.
+        devel: devel space.
+    """
+    manifests = [(folder / "package.xml").read_text(encoding="utf-8", errors="replace") for folder in packages.values()]
+    for program in sorted(kit.folder.glob("lib/*/*")):
+        package = program.parent.name
+        if not any(re.search(rf">\s*{package}\s*</\w*depend>", manifest) for manifest in manifests):
+            continue
+        link = devel / "lib" / package / program.name
+        link.parent.mkdir(parents=True, exist_ok=True)
+        if link.is_symlink() and link.readlink() != program:
+            link.unlink()
+        if not os.path.lexists(link):
+            link.symlink_to(program)
+
+
 def _compile(sources: Path, folder: Path, toolchain: Toolchain, environment: Mapping[str, str], flags: str) -> None:
     print("-- compiling the C++ development kit, once for this compiler", file=sys.stderr, flush=True)
     headers = Headers({}, folder / "include", folder / "include", provided=sources)
@@ -133,5 +156,5 @@ _WITHOUT_LIBRARIES = frozenset(
         *("joint_state_publisher", "joint_state_publisher_gui", "roslint", "rosdoc_lite", "ros_environment"),
     }
 )
-_WITH_LIBRARIES = frozenset({"actionlib", "bond", "costmap_2d", "dynamic_reconfigure", "navfn", "tf", "topic_tools"})
+_WITH_LIBRARIES = frozenset({"actionlib", "costmap_2d", "dynamic_reconfigure", "navfn", "nodelet", "tf", "topic_tools"})
 """Packages of messages that have libraries, too, which programs mean."""

@@ -220,7 +220,7 @@ def _constants(name: str, constants: dict[str, tuple[str, str]]) -> tuple[str, s
     for constant, (kind, text) in constants.items():
         if kind == "string" or kind.startswith("float"):
             cpp = _STRING if kind == "string" else _NUMBERS[kind]
-            value = _literal(text) if kind == "string" else _float(text)
+            value = literal(text) if kind == "string" else _float(text)
             inside.append(f"  static const {cpp} {constant};\n")
             outside.append(
                 f"template <typename ContainerAllocator>\nconst {cpp}\n"
@@ -240,7 +240,7 @@ def _float(text: str) -> str:
     return repr(float(text))
 
 
-def _literal(text: str) -> str:
+def literal(text: str) -> str:
     """Return a C++ string literal; other than ASCII is escaped in octal, as hexadecimal escapes have no end."""
     return '"' + "".join(_character(byte) for byte in text.encode()) + '"'
 
@@ -281,8 +281,8 @@ def _traits(messages: Definitions, type_name: str, full: str, fields: Sequence[_
     if _is_fixed(messages, type_name, {}):
         facts.append("IsFixedSize")
     lines = messages.definition(type_name).splitlines(keepends=True) or [""]
-    definition = "\n           ".join(map(_literal, lines))
-    values = {"MD5Sum": _literal(messages.md5(type_name)), "DataType": _literal(type_name), "Definition": definition}
+    definition = "\n           ".join(map(literal, lines))
+    values = {"MD5Sum": literal(messages.md5(type_name)), "DataType": literal(type_name), "Definition": definition}
     return "".join(
         [
             *(f"template <class ContainerAllocator>\nstruct {fact}< {full} > : TrueType {{}};\n" for fact in facts),
@@ -358,7 +358,7 @@ def _service_traits(service: ServiceType, cpp_type: str, template: str) -> str:
         f"""\
 template {template}
 struct {trait}<{cpp_type}> {{
-  static const char* value() {{ return {_literal(value)}; }}
+  static const char* value() {{ return {literal(value)}; }}
   static const char* value(const {cpp_type}&) {{ return value(); }}
 }};
 """

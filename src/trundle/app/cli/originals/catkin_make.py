@@ -121,7 +121,15 @@ def _build(
     underlays: list[str],
 ) -> "dict[str, BuildResult]":
     """Build packages; print what the tools print."""
-    from trundle.ros.sdk import Headers, PackageBuilder, compiled_kit, find_toolchain
+    from trundle.ros.rospy.environment import with_finder
+    from trundle.ros.sdk import (
+        Headers,
+        PackageBuilder,
+        compiled_kit,
+        find_toolchain,
+        link_programs,
+        write_config_headers,
+    )
 
     toolchain = find_toolchain(os.environ)
     kit = compiled_kit(toolchain, os.environ)
@@ -137,9 +145,13 @@ def _build(
         environment=os.environ,
     )
     results: dict[str, BuildResult] = {}
+    python = with_finder(os.environ, [workspace.source])
     for name in known:  # a package may include what any other of the workspace generates
         headers.write_package(name)
+        for fault in write_config_headers(name, known[name], workspace.devel / "include", python):
+            print(fault, file=sys.stderr)
     headers.write_included(packages.values())
+    link_programs(kit, known, workspace.devel)
     for name, folder in packages.items():
         print(f"#### building package '{name}'", flush=True)
         for line in builder.build(name, folder, jobs=args.jobs, targets=args.targets):

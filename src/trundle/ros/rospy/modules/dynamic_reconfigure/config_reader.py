@@ -18,7 +18,8 @@ def config_namespace(package: str, file: Path) -> dict[str, Any]:
     Raises:
         ImportError: the file fails, or generates nothing.
     """
-    generator = _run(package, file)
+    generators = _run(package, file)
+    generator = ([one for one in generators if one.name == file.stem] or generators)[-1]
     description = generator.group.to_dict()
     parameters = extract_params(description)
     namespace: dict[str, Any] = {
@@ -39,8 +40,20 @@ def config_namespace(package: str, file: Path) -> dict[str, Any]:
     }
 
 
-def _run(package: str, file: Path) -> parameter_generator.ParameterGenerator:
-    """Run a .cfg file; returns the ParameterGenerator whose `generate` it calls."""
+def described(package: str, file: Path) -> list[dict[str, Any]]:
+    """All configurations that a .cfg file generates: name, group, constants.
+
+    Raises:
+        ImportError: the file fails, or generates nothing.
+    """
+    return [
+        {"name": generator.name, "group": generator.group.to_dict(), "constants": generator.constants}
+        for generator in _run(package, file)
+    ]
+
+
+def _run(package: str, file: Path) -> list[parameter_generator.ParameterGenerator]:
+    """Run a .cfg file; returns the ParameterGenerators whose `generate` it calls."""
     parameter_generator.collected.clear()
     try:
         code = compile(file.read_text(encoding="utf-8"), str(file), "exec")
@@ -53,5 +66,4 @@ def _run(package: str, file: Path) -> parameter_generator.ParameterGenerator:
         raise ImportError(f"{file}:{line}: error: {type(error).__name__}: {error}") from None
     if not parameter_generator.collected:
         raise ImportError(f"{file}: error: no call of ParameterGenerator.generate, so {package}.cfg has no such module")
-    matches = [generator for generator in parameter_generator.collected if generator.name == file.stem]
-    return (matches or parameter_generator.collected)[-1]
+    return list(parameter_generator.collected)

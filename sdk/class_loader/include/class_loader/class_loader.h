@@ -1,0 +1,3 @@
+#pragma once
+
+#include "class_loader/class_loader.hpp"

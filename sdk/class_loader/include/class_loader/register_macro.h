@@ -1,0 +1,3 @@
+#pragma once
+
+#include "class_loader/register_macro.hpp"
