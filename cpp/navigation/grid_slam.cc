@@ -8,12 +8,6 @@
 
 namespace trundle::navigation {
 
-namespace {
-
-constexpr double kTiny = 1e-12;
-
-}  // namespace
-
 GridSlam::GridSlam(const SlamOptions& options, std::vector<double> bearings, const PlanarPose& pose, std::uint64_t seed)
     : options_(options),
       bearings_(std::move(bearings)),
@@ -147,41 +141,14 @@ void GridSlam::register_scan() {
   }
 }
 
-// Counts the beams that crossed each cell and those that ended in it.
 void GridSlam::count(const Node& node) {
   const auto& ranges = scans_[static_cast<std::size_t>(node.scan)];
-  const double start_x = node.pose.x / options_.delta, start_y = node.pose.y / options_.delta;
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const double range = double{ranges[i]};
     if (range == 0.0) continue;
-    const double length = std::min(range, options_.usable_range);
-    const double dx = std::cos(node.pose.yaw + bearings_[i]), dy = std::sin(node.pose.yaw + bearings_[i]);
-    const double end_x = node.pose.x + length * dx, end_y = node.pose.y + length * dy;
-    if (!counts_.reaches(node.pose.x) || !counts_.reaches(node.pose.y) || !counts_.reaches(end_x) ||
-        !counts_.reaches(end_y))
-      continue;
-    int column = counts_.cell_of(node.pose.x), row = counts_.cell_of(node.pose.y);
-    const int end_column = counts_.cell_of(end_x), end_row = counts_.cell_of(end_y);
-    // The end first, so that the map grows but once.
-    Counts& end = counts_.at(end_column, end_row);
-    ++end.visits;
-    end.hits += range <= options_.usable_range;
-    seen_.include(column, row);
-    seen_.include(end_column, end_row);
-    const int step_x = dx < 0.0 ? -1 : 1, step_y = dy < 0.0 ? -1 : 1;
-    const double per_x = 1.0 / std::max(std::abs(dx), kTiny), per_y = 1.0 / std::max(std::abs(dy), kTiny);
-    double next_x = (step_x > 0 ? column + 1 - start_x : start_x - column) * per_x;
-    double next_y = (step_y > 0 ? row + 1 - start_y : start_y - row) * per_y;
-    for (int left = std::abs(end_column - column) + std::abs(end_row - row); left > 0; --left) {
-      ++counts_.at(column, row).visits;
-      if (next_x < next_y) {
-        next_x += per_x;
-        column += step_x;
-      } else {
-        next_y += per_y;
-        row += step_y;
-      }
-    }
+    const double angle = node.pose.yaw + bearings_[i];
+    const Beam beam{node.pose.x, node.pose.y, std::cos(angle), std::sin(angle)};
+    counts_.add(beam, std::min(range, options_.usable_range), range <= options_.usable_range);
   }
 }
 
@@ -191,31 +158,19 @@ void GridSlam::count_new() {
   std::vector<int> path;  // back to what is counted already
   int node = last;
   for (; node >= 0 && node != counted_node_; node = nodes_[static_cast<std::size_t>(node)].parent) path.push_back(node);
-  if (node < 0) {
-    counts_ = PatchMap<Counts>(options_.delta);
-    seen_ = {};
-  }
+  if (node < 0) counts_ = CellCounts(options_.delta);
   for (auto place = path.rbegin(); place != path.rend(); ++place) count(nodes_[static_cast<std::size_t>(*place)]);
   counted_node_ = last;
 }
 
 SeenCells GridSlam::seen() {
   count_new();
-  return seen_;
+  return counts_.seen();
 }
 
 std::vector<std::int8_t> GridSlam::draw(const MapFrame& frame) {
   count_new();
-  std::vector<std::int8_t> cells;
-  cells.reserve(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
-  for (int row = 0; row < frame.height; ++row)
-    for (int column = 0; column < frame.width; ++column) {
-      const Counts* counts = counts_.find(frame.first_column + column, frame.first_row + row);
-      if (counts == nullptr || counts->visits == 0) cells.push_back(-1);
-      else
-        cells.push_back(counts->hits > frame.occupied_threshold * counts->visits ? std::int8_t{100} : std::int8_t{0});
-    }
-  return cells;
+  return counts_.draw(frame);
 }
 
 }  // namespace trundle::navigation

@@ -2,12 +2,10 @@
 // for Grid Mapping with Rao-Blackwellized Particle Filters" (2007), with gmapping's parameters.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
-#include "patch_map.h"
+#include "cell_counts.h"
 #include "planar_pose.h"
 #include "random.h"
 #include "scan_matcher.h"
@@ -25,26 +23,6 @@ struct SlamOptions {
   double temporal_update = -1.0;                      // [s]; negative: never
   double resample_threshold = 0.5;
   int particles = 30;
-};
-
-// Bounds of a drawn map and when a cell counts as occupied.
-struct MapFrame {
-  int first_column, first_row;  // numbers of the cells; that of (0, 0) [m] is 0
-  int width, height;            // [cells]
-  double occupied_threshold;
-};
-
-// Cells that a trajectory saw, the last ones included; empty where the first exceed the last.
-struct SeenCells {
-  int first_column = std::numeric_limits<int>::max(), first_row = std::numeric_limits<int>::max();
-  int last_column = std::numeric_limits<int>::min(), last_row = std::numeric_limits<int>::min();
-
-  void include(int column, int row) {
-    first_column = std::min(first_column, column);
-    first_row = std::min(first_row, row);
-    last_column = std::max(last_column, column);
-    last_row = std::max(last_row, row);
-  }
 };
 
 class GridSlam {
@@ -79,9 +57,6 @@ class GridSlam {
     PlanarPose pose;
     int parent, scan;
   };
-  struct Counts {
-    std::int32_t hits = 0, visits = 0;
-  };
 
   std::size_t best() const;
   std::vector<double> weights() const;
@@ -104,8 +79,7 @@ class GridSlam {
   double driven_ = 0.0, turned_ = 0.0, last_time_s_ = 0.0;  // since the last scan used
   bool has_started_ = false;
   double unmatched_share_ = 0.0;
-  SeenCells seen_;           // by what is in counts_
-  PatchMap<Counts> counts_;  // along the trajectory that ends in counted_node_
+  CellCounts counts_;  // along the trajectory that ends in counted_node_
   int counted_node_ = -1;
 };
 

@@ -1,4 +1,4 @@
-// The Python module `_mapping`: gmapping's particle filter, hector_mapping's pyramid.
+// The Python module `_mapping`: gmapping's particle filter, hector_mapping's pyramid, the pose graph of Karto and others.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/tuple.h>
@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "graph_slam_bindings.h"
 #include "grid_slam.h"
 #include "hector_bindings.h"
 
@@ -120,6 +121,7 @@ NB_MODULE(_mapping, module) {
       .def_prop_ro("entropy", &GridSlam::entropy)
       .def_prop_ro("unmatched_share", &GridSlam::unmatched_share);
   bind_hector(module);
+  bind_graph_slam(module);
 }
 
 }  // namespace trundle::navigation

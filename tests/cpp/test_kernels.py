@@ -1,4 +1,4 @@
-"""The C++ kernels by themselves: clipping, trees of boxes, rays, contacts, controllers' laws."""
+"""The C++ kernels by themselves: clipping, trees of boxes, rays, contacts, controllers' laws, graphs of poses."""
 
 import shutil
 import subprocess

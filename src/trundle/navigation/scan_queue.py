@@ -30,6 +30,10 @@ class ScanQueue:
         self._waiting.append(scan)
         self._is_waiting.set()
 
+    def clear(self) -> None:
+        """Drop the waiting scans."""
+        self._waiting.clear()
+
     async def run(self) -> None:
         """Process until cancelled."""
         while True:

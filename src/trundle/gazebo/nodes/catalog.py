@@ -109,6 +109,10 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("rqt_tf_tree", "rqt_tf_tree"): "trundle.gazebo.nodes.rqt_windows:RqtTfTree",
     ("rqt_topic", "rqt_topic"): "trundle.gazebo.nodes.rqt_windows:RqtTopic",
     ("rviz", "rviz"): "trundle.gazebo.nodes.rviz:Rviz",
+    ("slam_karto", "slam_karto"): "trundle.navigation.mapping:SlamKarto",
+    ("slam_toolbox", "async_slam_toolbox_node"): "trundle.navigation.mapping:AsyncSlamToolbox",
+    ("slam_toolbox", "localization_slam_toolbox_node"): "trundle.navigation.mapping:LocalizationSlamToolbox",
+    ("slam_toolbox", "sync_slam_toolbox_node"): "trundle.navigation.mapping:SyncSlamToolbox",
     ("sound_play", "soundplay_node.py"): "trundle.gazebo.nodes.sound_play:SoundPlay",
     ("teleop_twist_joy", "teleop_node"): "trundle.gazebo.nodes.teleop_twist_joy:TeleopTwistJoy",
     (

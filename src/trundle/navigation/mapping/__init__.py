@@ -1,4 +1,4 @@
-"""Maps from scans: gmapping, which uses odometry, and hector_mapping, which does not."""
+"""Maps from scans: gmapping, hector_mapping, and the pose graphs of Karto, slam_toolbox and Cartographer."""
 
 import lazy_loader
 
