@@ -6,6 +6,7 @@ from typing import Any, cast
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 from tests.page.simulated_world.fake_server import FakeServer
 from tests.recorded_drives import write_drive
 
@@ -16,8 +17,10 @@ from trundle.base.diagnostics import DescriptionError, UsageError
 from trundle.live.state_logs import start_state_log
 from trundle.page import (
     Compare,
+    PageAction,
     PageServer,
     Pause,
+    Play,
     RenderView,
     Seek,
     SetReferenceOffset,
@@ -121,6 +124,7 @@ def test_two_logs_are_compared(recording: tuple[Simulation, Path], tmp_path: Pat
     expected = {(row.name, row.quantity): row for row in compare_logs(file, other).rows}
     found = {(row["name"], row["quantity"]): row for row in server.differences[-1]["rows"]}
     assert found["m::hinge", "position"]["maximum"] >= 0.3
+    assert found["m", "angular velocity"]["maximum"] > 0.3
     for key, row in expected.items():
         assert found[key]["maximum"] == pytest.approx(row.maximum), key
         assert found[key]["now"] == pytest.approx(row.now), key
@@ -129,6 +133,64 @@ def test_two_logs_are_compared(recording: tuple[Simulation, Path], tmp_path: Pat
     page.update(0.0)
     assert (server.answers[shift], server.answers[stop]) == (None, None)
     assert [world["reference"] and world["reference"]["start"] for world, _ in server.worlds[-2:]] == [1.5, None]
+
+
+def test_the_plotted_values_of_a_log_are_sent_as_it_is_played(recording: tuple[Simulation, Path]) -> None:
+    page, server = open_page(recording, paused=True)
+    log = read_state_log(recording[1])
+    page.update(0.0)
+    assert server.series == []
+    server.ask(Seek(1_000_000_000))
+    server.plotted = ("m.pose.pitch", "m::arm.twist.angular.y", "m::hinge.velocity", "m.contact.count", "n.pose.x")
+
+    page.update(0.0)
+    first, head, rows = server.series[-1]
+
+    assert (first, head["names"], head["units"]) == (0, list(server.plotted[:3]), ["rad", "rad/s", "rad/s"])
+    assert head["faults"]["n.pose.x"] == "no model, link or joint for n.pose.x"
+    assert head["faults"]["m.contact.count"].startswith("no value m.contact.count was recorded; there are: pose.x, ")
+    assert rows[:, 0] == pytest.approx(log.times_s[:51]), "what was played so far"
+    assert np.sin(rows[:, 1]) == pytest.approx(np.sin(log.positions[:51, 0]), abs=1e-6)
+    slopes = np.gradient(log.positions[:, 0], log.times_s)[:51]
+    assert rows[1:, 2] == pytest.approx(slopes[1:], abs=1e-6)
+    assert rows[1:, 3] == pytest.approx(slopes[1:], abs=1e-6)
+
+
+def test_plots_of_a_log_follow_its_playback(recording: tuple[Simulation, Path]) -> None:
+    """A page that misses a message gets its rows with the next one; what is played again is sent again."""
+    page, server = open_page(recording, paused=True)
+    server.plotted = ("m.pose.pitch",)
+    numbers: dict[int, float] = {}
+
+    def update(*actions: PageAction) -> list[float]:
+        for action in actions:
+            server.ask(action)
+        page.update(0.0)
+        first, _, rows = server.series[-1]
+        known = len(numbers)
+        numbers.update({first + at: float(time) for at, time in enumerate(rows[:, 0])})
+        assert list(numbers) == list(range(len(numbers)))
+        return [numbers[at] for at in range(known, len(numbers))]
+
+    assert update() == [0.0]
+    assert update(Seek(60_000_000)) == pytest.approx([0.02, 0.04, 0.06])
+    server.ask(Seek(80_000_000))
+    page.update(0.0)
+    assert update(Seek(100_000_000)) == pytest.approx([0.08, 0.1])
+    assert update(Seek(20_000_000)) == [], "scrubbing keeps the curves"
+    assert update(Play()) == pytest.approx([0.0, 0.02])
+
+
+def test_the_states_after_a_reset_are_played(recording: tuple[Simulation, Path]) -> None:
+    log = read_state_log(recording[1])
+    again = np.r_[0:30, 0 : len(log.times_s)]
+    recorded = replace(log, times_s=log.times_s[again], poses=log.poses[again], positions=log.positions[again])
+    server = FakeServer()
+    page = LogPage(cast(PageServer, server), recorded, recording[0], PlayOptions())
+
+    page.update(1.0)
+
+    assert server.poses[-1][1] == pytest.approx(log.poses[50])
 
 
 def test_only_state_logs_of_this_world_are_compared(recording: tuple[Simulation, Path], tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ from tests.system.browser import running_page
 import trundle
 from trundle.live.state_logs import start_state_log
 from trundle.sim.simulation import read_state_log
-from trundle.spatial import Pose, Twist
+from trundle.spatial import Pose, Twist, Vector3
 
 pytestmark = [pytest.mark.slow, needs_client]
 SIDE_M = 0.4
@@ -37,14 +37,19 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The world, and a recording in which the puck leaves (−1, 0.5) along x at 0.5 m/s."""
     folder = tmp_path_factory.mktemp("compare")
     (folder / "w.sdf").write_text(WORLD)
+    record(folder, "other.log", start=(-1.0, 0.5, 0.0), twist=Twist(linear=(0.5, 0.0, 0.0)))
+    return folder
+
+
+def record(folder: Path, name: str, *, start: Vector3, twist: Twist) -> None:
+    """Record two seconds of the puck."""
     sim = trundle.load(str(folder / "w.sdf"))
-    sim["puck"].set_pose(Pose((-1.0, 0.5, 0.0)))
-    sim["puck"].set_twist(Twist(linear=(0.5, 0.0, 0.0)))
-    recorder = start_state_log(folder / "other.log", sim, sim.world, sim.report)
+    sim["puck"].set_pose(Pose(start))
+    sim["puck"].set_twist(twist)
+    recorder = start_state_log(folder / name, sim, sim.world, sim.report)
     sim.add_hook(recorder, period_ns=recorder.period_ns)
     sim.run(2.0)
     recorder.close()
-    return folder
 
 
 class CompareUser(WorldUser):
@@ -86,6 +91,19 @@ class CompareUser(WorldUser):
         text = cells[column].rstrip("m°\n ") if cells else "—"
         return math.nan if text == "—" else float(text.replace("−", "-"))
 
+    def plot(self, path: str) -> None:
+        self.open("Plots")
+        self.button("Add curve").first.click()
+        field = self.page.get_by_role("combobox", name="Path of a curve")
+        field.fill(path)
+        field.press("Enter")
+        self.button("Close").click()
+
+    def legend(self, path: str) -> str:
+        """Return the text of a curve's row below its plot."""
+        row = self.page.locator(".legend li").filter(has=self.page.locator(f"[title^='{path}']"))
+        return str(row.inner_text())
+
     def until_distance(self, distance: float) -> None:
         self.until(lambda: abs(self.number("puck", "distance", 2) - distance) < 6e-4, what=f"for {distance} m")
 
@@ -119,7 +137,7 @@ def test_a_run_is_compared_with_a_recording(user: CompareUser, folder: Path, tmp
         user.button("Save CSV").click()
     download.value.save_as(tmp_path / "differences.csv")
     head, distance, *_ = (tmp_path / "differences.csv").read_text().splitlines()
-    assert head.startswith('"name","quantity","now [m, rad]"')
+    assert head.startswith('"name","quantity","now [m, rad, m/s, rad/s]"')
     assert float(distance.split(",")[2]) == pytest.approx(math.sqrt(2.0), abs=1e-3)
 
     user.type("Offset [s]", "0.5")
@@ -150,12 +168,7 @@ def _columns_with(user: CompareUser, token: str, *, upper: bool) -> float:
 
 
 def test_plots_have_dashed_curves_of_the_recording(user: CompareUser) -> None:
-    user.open("Plots")
-    user.button("Add curve").first.click()
-    path = user.page.get_by_role("combobox", name="Path of a curve")
-    path.fill("puck.pose.x")
-    path.press("Enter")
-    user.button("Close").click()
+    user.plot("puck.pose.x")
     user.page.get_by_label("Time window").select_option("5 s")
     user.run_to(1.5)
     user.page.get_by_role("img", name="Plot of puck.pose.x, puck.pose.x (reference)", exact=True).wait_for()
@@ -183,3 +196,29 @@ def test_a_recording_is_chosen_or_dropped(user: CompareUser, folder: Path) -> No
 
     user.page.get_by_title("other.log", exact=True).wait_for()
     user.until_distance(math.hypot(1.5, 0.5))
+
+
+def test_poses_and_velocities_of_two_logs_are_compared(chromium: Any, folder: Path) -> None:
+    """The played puck goes from (0, 0) along y at 0.4 m/s and turns at 0.3 rad/s, the other along x at 0.5 m/s."""
+    record(folder, "run.log", start=(0.0, 0.0, 0.0), twist=Twist(linear=(0.0, 0.4, 0.0), angular=(0.0, 0.0, 0.3)))
+    words = ("play", str(folder / "run.log"), "--compare", str(folder / "other.log"), "--pause", "--port", "0")
+    with running_page(*words, environment={}) as url:
+        user = CompareUser(chromium, url)
+        user.plot("puck.pose.y")
+        user.plot("puck::l.twist.linear.x")
+        user.open("Compare")
+        user.ask("seek", time_ns=1_000_000_000)
+        user.until_distance(math.hypot(0.5, 0.1))
+
+        assert user.number("puck", "angle", 2) == pytest.approx(math.degrees(0.3), abs=0.02)
+        speeds = [user.cells("puck", quantity)[2] for quantity in ("velocity", "angular velocity")]
+        assert [text.split()[0] for text in speeds] == ["0.640", "0.300"]
+        user.open("Plots")
+        user.until(lambda: "0.400" in user.legend("puck.pose.y"), what="for the played puck's place")
+        assert "reference 0.500" in user.legend("puck.pose.y")
+        assert "0.000" in user.legend("puck::l.twist.linear.x")
+        assert "reference 0.500" in user.legend("puck::l.twist.linear.x")
+        user.page.get_by_label("Recording to compare with").select_option("Difference")
+        user.until(lambda: "−0.100" in user.legend("puck.pose.y"), what="for the difference of places")
+        assert "−0.500" in user.legend("puck::l.twist.linear.x")
+        user.close()

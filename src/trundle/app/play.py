@@ -32,6 +32,7 @@ from trundle.page.bag.compared_bag import compared_bag
 from trundle.page.browser import announce_page
 from trundle.page.simulated_world.body_numbers import BodyNumbers
 from trundle.page.simulated_world.controls import reason_of
+from trundle.page.simulated_world.log_series import LogSeries
 from trundle.page.simulated_world.manifest import find_robot, single_axes, world_manifest
 from trundle.page.simulated_world.pictures import WorldPictures
 from trundle.page.simulated_world.reference import Reference, read_recording
@@ -39,7 +40,7 @@ from trundle.page.simulated_world.world_builder import BuiltWorld, WorldBuilder
 from trundle.robots.model import AnimationState
 from trundle.ros import is_bag, open_bag
 from trundle.ros.bridge import WORLD_FRAME
-from trundle.sim.comparison import Trajectory
+from trundle.sim.comparison import Trajectory, ascending_rows
 from trundle.sim.simulation import Simulation, StateLog
 from trundle.spatial import NS_PER_S
 
@@ -130,10 +131,13 @@ class LogPage:
 
         Args:
             server: page server.
-            log: recorded states.
+            log: recorded states; where its time goes back, the later ones are shown.
             simulation: simulation of the log's world, which does not run.
             options: speed and pause.
         """
+        rows = ascending_rows(log.times_s)
+        if len(rows) < len(log.times_s):
+            log = replace(log, times_s=log.times_s[rows], poses=log.poses[rows], positions=log.positions[rows])
         self._server = server
         self._log = log
         self._simulation = simulation
@@ -141,6 +145,7 @@ class LogPage:
         times_ns = np.rint(log.times_s * NS_PER_S).astype(np.int64)
         self._playback = Playback(times_ns, speed=options.speed, paused=options.paused)
         self._joints = _joint_columns(log, single_axes(simulation))
+        self._series = LogSeries(server, log, simulation.world)
         self._bodies = BodyNumbers()
         self._bones = ActorBones(simulation.world)
         bodies = (*log.links, *self._bones.names)
@@ -186,6 +191,7 @@ class LogPage:
             server.put_poses(playback.time_ns, self._bodies.rows(poses))
         if server.is_watched(JOINTS):
             server.put_joints(playback.time_ns, self._joints[sample])
+        self._series.put(sample, paused=playback.paused)
         self._frames += 1
         if self._reference is not None and self._frames % _FRAMES_PER_COMPARISON == 0:
             self._reference.put_differences(server, playback.time_ns / NS_PER_S)
@@ -198,7 +204,7 @@ class LogPage:
             UsageError: it was recorded in another world.
         """
         start = float(self._log.times_s[0])
-        reference = Reference(recording, title, self._simulation, start=start)
+        reference = Reference(recording, title, self._simulation, start=start, has_velocities=True)
         compared = reference.comparison.reference
         reference.comparison.add_run(Trajectory.of_log(self._log).only(compared.models, compared.joints))
         self._reference = reference

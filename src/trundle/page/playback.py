@@ -30,6 +30,11 @@ class Playback:
         self.time_ns = int(times_ns[0])
 
     @property
+    def paused(self) -> bool:
+        """True while it is paused."""
+        return self._paused
+
+    @property
     def sample(self) -> int:
         """Index of the newest sample."""
         return max(0, int(np.searchsorted(self._times_ns, self.time_ns, side="right")) - 1)

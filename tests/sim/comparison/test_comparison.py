@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from trundle.sim.comparison import Comparison, Trajectory
+from trundle.sim.comparison import Comparison, Trajectory, velocities
 from trundle.sim.simulation import StateLog
 from trundle.spatial import quaternion_from_rpy
 
@@ -111,6 +111,39 @@ def test_a_model_that_is_missing_has_no_difference() -> None:
     assert found["box", "distance"] is None
     assert found["box", "angle"] is None
     assert found["box::hinge", "position"] == pytest.approx(1.0)
+
+
+def test_velocities_of_recorded_runs_are_compared() -> None:
+    """The run drives along x at 1 m/s, the reference along y at 2 m/s while it turns about z at 0.5 rad/s."""
+    reference = log()
+    reference.poses[:, 1, 0] = 0.0
+    reference.poses[:, 1, 1] = 2.0 * TIMES
+    reference.poses[:, 1, 3:] = [quaternion_from_rpy(0.0, 0.0, 0.5 * time) for time in TIMES]
+    one = Trajectory.of_log(log())
+    comparison = Comparison(Trajectory.of_log(reference), start=one.start, has_velocities=True)
+    comparison.add_run(one)
+
+    found = values(comparison, 1.01)
+
+    for quantity, expected in (("velocity", math.sqrt(5)), ("angular velocity", 0.5)):
+        now, maximum, _, rms = found["box", quantity]
+        assert (now, maximum, rms) == pytest.approx((expected, expected, expected))
+    assert found["box", "distance"][0] == pytest.approx(math.sqrt(5))
+    assert found["floor", "velocity"] == (0.0, 0.0, 0.0, 0.0)
+
+
+def test_velocities_are_those_of_uniform_acceleration() -> None:
+    """Differences of both neighbors are exact for it, but for the ends; one sample is at rest."""
+    poses = np.zeros((len(TIMES), 1, 7))
+    poses[:, 0, 2] = -0.5 * 9.8 * TIMES**2
+    poses[:, 0, 3:] = [quaternion_from_rpy(-3.0 * time, 0.0, 0.0) for time in TIMES]
+    poses[50:, 0, 3:] *= -1.0  # the same orientation
+
+    found = velocities(TIMES, poses)
+
+    assert found[1:-1, 0, 2] == pytest.approx(-9.8 * TIMES[1:-1])
+    assert found[:, 0, 3] == pytest.approx(-3.0)
+    assert velocities(TIMES[:1], poses[:1]).tolist() == [[[0.0] * 6]]
 
 
 def test_small_angles_are_exact() -> None:

@@ -141,7 +141,7 @@ function Value({ value, row }: { readonly value: number | null; readonly row: Co
   const isNumber = quantity === "value" && unit !== "m";
   return (
     <td class="num">
-      {isNumber && value !== null ? significant(value, 3) : fixed(value, unit === "m" ? 3 : 2)}
+      {isNumber && value !== null ? significant(value, 3) : fixed(value, unit === "°" ? 2 : 3)}
       {value !== null && unit !== "" && <i class="unit">{unit}</i>}
     </td>
   );

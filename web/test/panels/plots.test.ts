@@ -4,6 +4,7 @@ import { describe, expect, test } from "vitest";
 import { Curve } from "../../src/panels/plots/curve";
 import { legendText } from "../../src/panels/plots/legend";
 import { PlotsState } from "../../src/panels/plots/plots_state";
+import { valueOwners } from "../../src/panels/plots/simulated_values";
 import { fakePage } from "../fake_page";
 import { MANIFEST } from "../harness/manifest";
 
@@ -43,7 +44,9 @@ describe("a curve", () => {
     const list = new Curve(page, "/scan.ranges");
     page.connection.receive("/scan", { ranges: [1, 2] });
     expect(list.fault.value).toBe("This is a list of 2; choose one, as [0]");
-    expect(new Curve(fakePage({ kind: "log" }), "nonsense").fault.value).toBe("No joint nonsense is simulated");
+    expect(new Curve(fakePage({ kind: "graph" }), "nonsense").fault.value).toBe(
+      "Not a path; example: /odom.twist.twist.linear.x",
+    );
   });
 
   test("holds a command until the next one, and the last one until the end", () => {
@@ -77,13 +80,24 @@ describe("a curve", () => {
     expect(page.connection.subscriptions("/a")).toBe(0);
   });
 
-  test("follows a recorded joint", () => {
-    const page = fakePage({ kind: "log" });
-    page.world.manifest.value = MANIFEST;
-    const curve = new Curve(page, "rp2w::camera_base_camera.velocity");
-    page.world.joints.value = [0, 1].map((value) => ({ position: value, velocity: value + 0.5, effort: 0 }));
-    expect([curve.fault.value, curve.points.lastX, curve.points.lastY]).toEqual(["", 12.48, 1.5]);
-    expect([curve.name, curve.caption]).toEqual(["camera_base_camera.velocity", "rp2w"]);
+  test("asks for a value of a simulation or a played log by its name", () => {
+    for (const kind of ["simulation", "log"] as const) {
+      const page = fakePage({ kind });
+      const curve = new Curve(page, "rp2w::camera_base_camera.velocity");
+      expect(page.connection.requests.at(-1)).toEqual({ name: "plot", fields: { series: [curve.path] } });
+      expect([curve.name, curve.caption]).toEqual(["camera_base_camera.velocity", "rp2w"]);
+    }
+  });
+
+  test("can be of what a log has", () => {
+    const [simulated, recorded, none] = (["simulation", "log", "graph"] as const).map((kind) =>
+      valueOwners(MANIFEST, kind).flatMap(({ values }) => values),
+    );
+    expect(simulated).toEqual(expect.arrayContaining(recorded ?? []));
+    const paths = ["rp2w.pose.x", "rp2w::chassis.twist.angular.z", "rp2w::camera_base_camera.velocity"];
+    expect(recorded).toEqual(expect.arrayContaining(paths));
+    expect(recorded?.filter((path) => /contact|effort|living_room/.test(path))).toEqual([]);
+    expect(none).toEqual([]);
   });
 });
 

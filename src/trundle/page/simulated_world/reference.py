@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from trundle.base.diagnostics import DescriptionError, Source, UsageError
 from trundle.page import DIFFERENCES, PageServer
-from trundle.sim.comparison import Comparison, Difference, Trajectory, ascending_rows, first_links
+from trundle.sim.comparison import Comparison, Difference, Quantity, Trajectory, ascending_rows, first_links
 from trundle.sim.gltf import content_name
 from trundle.sim.simulation import Simulation, StateLog, read_state_log
 
@@ -22,6 +22,8 @@ _FOLDER = "world/"
 _MAX_BYTES = 64 * 1024 * 1024
 """Limit of the samples for clients; of longer recordings they get every second one, or fewer."""
 _MAX_ROWS = 300
+_QUANTITIES: tuple[Quantity, ...] = ("distance", "angle", "velocity", "angular velocity")
+"""Order of a model's rows."""
 _XYZ_XYZW = [0, 1, 2, 4, 5, 6, 3]
 """Order of a pose's numbers on the wire, as indices into x y z qw qx qy qz."""
 _Array = NDArray[np.float64]
@@ -30,7 +32,9 @@ _Array = NDArray[np.float64]
 class Reference:
     """Recording, and the world's differences from it."""
 
-    def __init__(self, log: StateLog, title: str, simulation: Simulation, *, start: float) -> None:
+    def __init__(
+        self, log: StateLog, title: str, simulation: Simulation, *, start: float, has_velocities: bool = False
+    ) -> None:
         """Compare a world with a recording.
 
         Args:
@@ -38,6 +42,7 @@ class Reference:
             title: name for users.
             simulation: simulation of the world.
             start: time of the world at which the recording starts [s].
+            has_velocities: as in `Comparison`.
 
         Raises:
             UsageError: it was recorded in another world.
@@ -53,7 +58,7 @@ class Reference:
                 f"{_listed(movable)} can move"
             )
         joints = [joint for joint in simulation.engine.compiled.joint_names if joint.partition("::")[0] in models]
-        self.comparison = Comparison(whole.only(models, joints), start=start)
+        self.comparison = Comparison(whole.only(models, joints), start=start, has_velocities=has_velocities)
         self._title = title
         self._links = tuple(link for link in log.links if link in links and link.partition("::")[0] in models)
         self._samples, data = _packed(log, self._links, self.comparison.reference.joints)
@@ -103,7 +108,7 @@ class Reference:
         distances = {one.name: _size(one) for one in found if one.quantity == "distance"}
         models = sorted(
             (one for one in found if one.name in distances),
-            key=lambda one: (-distances[one.name], one.name, one.quantity == "angle"),
+            key=lambda one: (-distances[one.name], one.name, _QUANTITIES.index(one.quantity)),
         )
         joints = sorted((one for one in found if one.name not in distances), key=lambda one: -_size(one))
         rows = [one for one in (*models, *joints) if one.now is not None or one.maximum is not None]

@@ -74,7 +74,7 @@ class SeriesFinder:
             UsageError: there is no such value.
         """
         present: list[str] = []
-        for owner, field in _splits(name):
+        for owner, field in splits(name):
             values = self._values(owner, listen)
             if field in values:
                 return values[field]
@@ -129,7 +129,7 @@ class _SensorSeries:
         return float("nan") if reading is None else float(self._get(reading))
 
 
-def _splits(name: str) -> Iterator[tuple[str, str]]:
+def splits(name: str) -> Iterator[tuple[str, str]]:
     """Yield the parts of a name before and after each dot; names of models and links may contain dots."""
     for at, letter in enumerate(name):
         if letter == ".":
@@ -162,8 +162,13 @@ def _contact(now: SampledState, link: str, column: int) -> float:
     return 0.0 if sums is None else float(sums[column])
 
 
+def joint_units(kind: str) -> tuple[str, str]:
+    """Return the units of position and effort of a type of joint."""
+    return ("m", "N") if kind == "prismatic" else ("rad", "N·m")
+
+
 def _joint_values(index: int, kind: str) -> dict[str, Series]:
-    length, effort = ("m", "N") if kind == "prismatic" else ("rad", "N·m")
+    length, effort = joint_units(kind)
     return {
         "position": Series(length, lambda now: now.snapshot.joint_positions[index]),
         "velocity": Series(f"{length}/s", lambda now: now.snapshot.joint_velocities[index]),

@@ -44,4 +44,5 @@ class Differences(Struct, frozen=True, kw_only=True):
     time: float
     """[s]"""
     rows: tuple[Difference, ...]
-    """Models or frames, the farthest first, each by distance and angle; then joints or numbers, the largest first."""
+    """Models or frames, the farthest first, each by distance and angle, of recorded runs also by velocities; then
+    joints or numbers, the largest first."""

@@ -1,4 +1,4 @@
-"""Differences of a run from a reference: poses of models and positions of joints at the same time since the start."""
+"""Differences of a run from a reference at the same time since the start: poses, velocities, positions of joints."""
 
 import lazy_loader
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from .run_samples import Sums
 
 _Array = NDArray[np.float64]
-Quantity: TypeAlias = Literal["distance", "angle", "position", "value"]
+Quantity: TypeAlias = Literal["distance", "angle", "velocity", "angular velocity", "position", "value"]
 
 
 class Difference(Struct, frozen=True, kw_only=True):
@@ -19,7 +19,8 @@ class Difference(Struct, frozen=True, kw_only=True):
     name: str
     """Model, `model::joint`, a frame in its parent, or the path of a message's number."""
     quantity: Quantity
-    """Distance [m] and angle [rad] between poses, difference in a joint's position [rad or m], or in a number."""
+    """Distance [m] and angle [rad] between poses, difference of velocities [m/s] or angular velocities [rad/s], of a
+    joint's position [rad or m], or of a number."""
     now: float | None
     """None: the reference has no such time, or the run no such model."""
     maximum: float | None

@@ -3,6 +3,7 @@
 import type { JSX } from "preact";
 
 import { plotsState } from "../../panels/plots/plots_state";
+import { plottedValues } from "../../panels/plots/simulated_values";
 import { MenuButton } from "../../theme/menu";
 import type { Shell } from "../shell";
 
@@ -16,7 +17,8 @@ interface PlotMenuProps {
 
 export function PlotMenu({ shell, owner, values }: PlotMenuProps): JSX.Element | null {
   const { page, dock } = shell;
-  if (page.session.kind !== "simulation") return null;
+  const plotted = plottedValues(values, page.session.kind);
+  if (plotted.length === 0) return null;
   const state = plotsState(page);
   return (
     <MenuButton
@@ -24,7 +26,7 @@ export function PlotMenu({ shell, owner, values }: PlotMenuProps): JSX.Element |
       class="sml"
       label={`Plot of ${owner}`}
       items={() =>
-        values.map((value) => {
+        plotted.map((value) => {
           const path = `${owner}.${value}`;
           const curve = state.curves.find((other) => other.path === path);
           return {

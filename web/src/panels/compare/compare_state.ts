@@ -12,6 +12,12 @@ import { movingJoints } from "../plots/simulated_joints";
 import { sentence } from "../use";
 
 const DEGREES = 180 / Math.PI;
+const UNITS: Partial<Readonly<Record<Difference["quantity"], string>>> = {
+  distance: "m",
+  angle: "°",
+  velocity: "m/s",
+  "angular velocity": "rad/s",
+};
 
 /** A row of the table: numbers in its unit, which is empty where it is not known. */
 export interface CompareRow {
@@ -55,7 +61,8 @@ class CompareState {
     const lines = (this.differences.peek()?.rows ?? []).map(({ name, quantity, now, maximum, maximum_time, rms }) =>
       [quoted(name), quantity, now ?? "", maximum ?? "", maximum_time ?? "", rms ?? ""].join(","),
     );
-    const head = '"name","quantity","now [m, rad]","maximum [m, rad]","at [s]","RMS [m, rad]"';
+    const unit = "[m, rad, m/s, rad/s]";
+    const head = `"name","quantity","now ${unit}","maximum ${unit}","at [s]","RMS ${unit}"`;
     return `${[head, ...lines].join("\n")}\n`;
   }
 
@@ -80,8 +87,8 @@ export const compareState = perPage((page) => new CompareState(page));
 /** `linear`: joints whose positions are lengths. */
 function compareRow(row: Difference, linear: ReadonlySet<string>): CompareRow {
   const { name, quantity, maximum_time: maximumTime } = row;
-  const unit = quantity === "distance" || linear.has(name) ? "m" : "°";
-  const shown = (value: number | null): number | null => (value === null || unit === "m" ? value : value * DEGREES);
+  const unit = UNITS[quantity] ?? (linear.has(name) ? "m" : "°");
+  const shown = (value: number | null): number | null => (value !== null && unit === "°" ? value * DEGREES : value);
   return { name, quantity, unit, now: shown(row.now), maximum: shown(row.maximum), maximumTime, rms: shown(row.rms) };
 }
 

@@ -18,7 +18,6 @@ import {
 import { unitOf } from "../messages/units";
 import { RingBuffer } from "./ring_buffer";
 import { seriesFeed } from "./series_feed";
-import { simulatedJoint } from "./simulated_joints";
 
 const CAPACITY = 120_000; // points: two minutes at 1 kHz
 
@@ -41,26 +40,22 @@ export class Curve {
     readonly path: string,
     private readonly givenName?: string,
   ) {
+    const isWorld = page.session.kind === "simulation" || page.session.kind === "log";
     let last = "";
     this.dispose = effect(() => {
       const topicPath = parsePath(path, page.connection.topics.value.keys());
-      if (!path.startsWith("/") && page.session.kind === "simulation") {
-        if (last !== path) this.followSimulation();
+      if (!path.startsWith("/") && isWorld) {
+        if (last !== path) this.followWorld();
         last = path;
         return;
       }
-      const joint = path.startsWith("/") ? null : simulatedJoint(page.world.manifest.value, path);
-      const next = joint === null ? topicPath && topicPath.topic + stepsText(topicPath.steps) : path;
+      const next = topicPath && topicPath.topic + stepsText(topicPath.steps);
       if (next === last) return;
       last = next ?? "";
       this.subscription?.close();
       this.subscription = undefined;
-      if (joint !== null) this.followJoint(joint.index, joint.field);
-      else if (topicPath !== null) this.follow(topicPath);
-      else
-        this.fault.value = path.startsWith("/")
-          ? "Not a path; example: /odom.twist.twist.linear.x"
-          : `No joint ${path} is simulated`;
+      if (topicPath !== null) this.follow(topicPath);
+      else this.fault.value = "Not a path; example: /odom.twist.twist.linear.x";
     });
   }
 
@@ -115,27 +110,17 @@ export class Curve {
     );
   }
 
-  private followSimulation(): void {
+  private followWorld(): void {
     this.fault.value = "No value yet";
     this.subscription = seriesFeed(this.page).follow(this.path, {
       onValue: (time, value) => {
         this.fault.value = "";
-        if (time <= (this.points.lastX ?? -Infinity)) this.points.truncate(time); // the simulation went back in time
+        if (time <= (this.points.lastX ?? -Infinity)) this.points.truncate(time); // the world went back in time
         this.add(time, value);
       },
       onUnit: (unit) => void (this.unit.value = unit),
       onFault: (text) => void (this.fault.value = text),
     });
-  }
-
-  private followJoint(index: number, field: "position" | "velocity" | "effort"): void {
-    this.fault.value = "";
-    const close = this.page.world.joints.subscribe((joints) => {
-      const value = joints.at(index)?.[field];
-      const state = this.page.world.state.peek();
-      if (value !== undefined && state !== null) this.add(state.time_ns / 1e9, value);
-    });
-    this.subscription = { close };
   }
 
   private add(time: number, value: number): void {

@@ -15,10 +15,8 @@ import { numericPaths } from "../messages/numeric_paths";
 import { MessageType } from "../messages/definition";
 import { FilterField } from "../parts";
 import type { PlotsState } from "./plots_state";
-import { movingJoints } from "./simulated_joints";
 import { valueOwners } from "./simulated_values";
 
-const JOINTS = "joints";
 const MAX_RESULTS = 200;
 const WAITS = " waits";
 const PERIOD = 500; // ms between drawings of the tree
@@ -82,17 +80,13 @@ function usePaths(page: Page): readonly string[] {
   const known = topics.value;
   useEffect(() => {
     let isOver = false;
-    const manifest = page.world.manifest.peek();
-    const joints =
-      page.session.kind === "simulation"
-        ? valueOwners(manifest).flatMap(({ values }) => values)
-        : movingJoints(manifest).map(({ name }) => `${name}.position`);
+    const simulated = valueOwners(page.world.manifest.peek(), page.session.kind).flatMap(({ values }) => values);
     const all = [...known.values()].map(async ({ name, type }) => {
       const text = await page.connection.definition(type).catch(() => "");
       return numericPaths(MessageType.parse(text)).map((path) => name + path);
     });
     void Promise.all(all).then((query) => {
-      if (!isOver) setPaths([...joints, ...query.flat().sort()]);
+      if (!isOver) setPaths([...simulated, ...query.flat().sort()]);
     });
     return () => {
       isOver = true;
@@ -125,8 +119,7 @@ function useMessages(
 
 /** Models, links, joints and sensors with their values; matches of a search are open. */
 function simulatedRows(page: Page, open: ReadonlySet<string>, search: string): readonly TreeRow[] {
-  if (page.session.kind !== "simulation") return jointRows(page, open);
-  const rows = valueOwners(page.world.manifest.value).flatMap(({ name, kind, values }) => {
+  const rows = valueOwners(page.world.manifest.value, page.session.kind).flatMap(({ name, kind, values }) => {
     const depth = kind === "model" ? 0 : kind === "sensor" ? 2 : 1;
     const label = kind === "model" ? name : name.slice(name.lastIndexOf("::") + 2);
     if (search !== "") {
@@ -142,16 +135,6 @@ function simulatedRows(page: Page, open: ReadonlySet<string>, search: string): r
     ];
   });
   return rows.slice(0, search === "" ? rows.length : MAX_RESULTS);
-}
-
-function jointRows(page: Page, open: ReadonlySet<string>): readonly TreeRow[] {
-  const joints = movingJoints(page.world.manifest.value);
-  if (joints.length === 0) return [];
-  const isOpen = open.has(JOINTS);
-  const rows = [row(JOINTS, 0, "Simulated joints", "", isOpen)];
-  if (!isOpen) return rows;
-  const leaves = joints.flatMap(({ name }) => ["position", "velocity", "effort"].map((field) => `${name}.${field}`));
-  return [...rows, ...leaves.map((path) => row(path, 1, path, "", undefined))];
 }
 
 function topicRows(

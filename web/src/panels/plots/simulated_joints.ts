@@ -1,9 +1,6 @@
-/** Joints of the simulated world as paths: `model::joint.position`. */
+/** Joints of the simulated world. */
 
 import type { JointInfo, Manifest, ModelInfo } from "../../protocol/generated/page_messages";
-
-const FIELDS = ["position", "velocity", "effort"] as const;
-export type JointField = (typeof FIELDS)[number];
 
 export interface NamedJoint {
   /** `model::joint`, with the models that the model is nested in. */
@@ -29,15 +26,4 @@ export function movingJoints(manifest: Manifest | null): readonly NamedJoint[] {
   };
   add(manifest?.models ?? [], "");
   return joints;
-}
-
-/** Joint and field of a path; null where it is none. */
-export function simulatedJoint(
-  manifest: Manifest | null,
-  path: string,
-): { readonly index: number; readonly field: JointField } | null {
-  const dot = path.lastIndexOf(".");
-  const field = FIELDS.find((known) => known === path.slice(dot + 1));
-  const joint = movingJoints(manifest).find(({ name }) => name === path.slice(0, dot));
-  return field === undefined || joint === undefined ? null : { index: joint.index, field };
 }

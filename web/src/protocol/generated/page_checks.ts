@@ -395,7 +395,7 @@ export const differences: is.Check<page.Differences> = is.struct(() => ({ time: 
 
 export const difference: is.Check<page.Difference> = is.struct(() => ({
   name: is.text,
-  quantity: is.literal("angle", "distance", "position", "value"),
+  quantity: is.literal("angle", "angular velocity", "distance", "position", "value", "velocity"),
   now: is.nullable(is.float),
   maximum: is.nullable(is.float),
   maximum_time: is.nullable(is.float),

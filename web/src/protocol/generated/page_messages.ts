@@ -559,7 +559,10 @@ export interface ProfilePart {
 export interface Differences {
   /** [s] */
   readonly time: number;
-  /** Models or frames, the farthest first, each by distance and angle; then joints or numbers, the largest first. */
+  /**
+   * Models or frames, the farthest first, each by distance and angle, of recorded runs also by velocities; then joints
+   * or numbers, the largest first.
+   */
   readonly rows: readonly Difference[];
 }
 
@@ -567,8 +570,11 @@ export interface Differences {
 export interface Difference {
   /** Model, `model::joint`, a frame in its parent, or the path of a message's number. */
   readonly name: string;
-  /** Distance [m] and angle [rad] between poses, difference in a joint's position [rad or m], or in a number. */
-  readonly quantity: "angle" | "distance" | "position" | "value";
+  /**
+   * Distance [m] and angle [rad] between poses, difference of velocities [m/s] or angular velocities [rad/s], of a
+   * joint's position [rad or m], or of a number.
+   */
+  readonly quantity: "angle" | "angular velocity" | "distance" | "position" | "value" | "velocity";
   /** Null: the reference has no such time, or the run no such model. */
   readonly now: number | null;
   /** Null: there was no time that both have. */
