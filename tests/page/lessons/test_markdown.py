@@ -1,8 +1,13 @@
 """Markdown becomes a tree without HTML; what is hostile becomes text."""
 
+import contextlib
+
 import msgspec
 import pytest
+from markdown_it.parser_inline import ParserInline
+from markdown_it.rules_inline import StateInline
 
+from trundle.base.diagnostics import DescriptionError
 from trundle.page.lessons.markdown import blocks_of, parse_markdown
 from trundle.page.lessons.text import (
     Block,
@@ -20,7 +25,7 @@ from trundle.page.lessons.text import (
 
 
 def _blocks(text: str) -> tuple[Block, ...]:
-    return blocks_of(parse_markdown(text))
+    return blocks_of(parse_markdown(text, file="l.md"))
 
 
 def test_the_subset_of_markdown() -> None:
@@ -130,9 +135,9 @@ def test_pictures_are_their_descriptions() -> None:
     [
         ">" * 1_000 + "a",
         "- " * 1_000 + "a",
-        "[" * 2_000,
+        "[" * 900,
         "*a " * 2_000,
-        "![" * 1_000 + "a" + "](b)" * 1_000,
+        "![" * 300 + "a" + "](b)" * 300,
         "`" * 2_000 + "a",
         "<!--" * 1_000,
         "\x00\x1b[31m\u202e\ud7ff",
@@ -142,3 +147,45 @@ def test_pictures_are_their_descriptions() -> None:
 def test_a_hostile_text_is_read_within_its_size(text: str) -> None:
     """Nesting is bounded, so that what is read can be encoded and drawn."""
     assert len(msgspec.json.encode(_blocks(text))) < 100 * len(text) + 1000
+
+
+@pytest.fixture
+def steps(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Positions that the parser skips over in search of the end of a link."""
+    found: list[int] = []
+    skip = ParserInline.skipToken
+
+    def counted(parser: ParserInline, state: StateInline) -> None:
+        found.append(state.pos)
+        skip(parser, state)
+
+    monkeypatch.setattr(ParserInline, "skipToken", counted)
+    return found
+
+
+@pytest.mark.parametrize("hostile", ["[", "![", "[a](", "[a", "![](", "[[]", "[*"])
+@pytest.mark.parametrize("size", [600, 250_000])
+def test_the_work_of_reading_brackets_is_bounded(steps: list[int], hostile: str, size: int) -> None:
+    """It grows with the square of their number; a lesson of 256 kB would take hours."""
+    text = hostile * (size // len(hostile))
+
+    with contextlib.suppress(DescriptionError):
+        _blocks(text)
+
+    assert len(steps) <= 1_000_000
+
+
+def test_too_many_brackets_are_named_with_their_line() -> None:
+    with pytest.raises(DescriptionError) as caught:
+        _blocks("# T\n\n[a](b)\n\n" + "[" * 2_000)
+
+    assert str(caught.value) == (
+        "l.md:5: error: 2000 brackets '[' in 2000 characters are too many; divide the paragraph, or write a code block"
+    )
+
+
+def test_a_long_lesson_with_links_is_read() -> None:
+    """A quarter of a megabyte, of paragraphs as in the lessons that Trundle brings."""
+    paragraph = "[a](https://example.org) and [b][c] " + "some words " * 30 + "\n\n"
+
+    assert len(_blocks(paragraph * (250_000 // len(paragraph)))) > 600

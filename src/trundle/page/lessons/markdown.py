@@ -8,7 +8,10 @@ from collections.abc import Iterable, Sequence
 from urllib.parse import urlsplit
 
 from markdown_it import MarkdownIt
+from markdown_it.rules_core import StateCore
 from markdown_it.tree import SyntaxTreeNode
+
+from trundle.base.diagnostics import DescriptionError, Source
 
 from .text import (
     Block,
@@ -28,11 +31,34 @@ from .text import (
 _COMMENTS = re.compile(r"(\s*<!--.*?-->)*\s*", re.DOTALL)
 _TITLE = re.compile(r'\btitle="([^"]*)"')
 _SCHEMES = ("http", "https")
+_MAX_LOOKS = 1_000_000
+"""Limit of the characters that the parser looks at for ends of links: after each '[' the rest of its paragraph."""
 
 
-def parse_markdown(text: str) -> list[SyntaxTreeNode]:
-    """Return the nodes at the top of a document."""
-    return list(SyntaxTreeNode(MarkdownIt("commonmark").parse(text)).children)
+def parse_markdown(text: str, *, file: str) -> list[SyntaxTreeNode]:
+    """Return the nodes at the top of a document.
+
+    Args:
+        text: document.
+        file: name in errors.
+
+    Raises:
+        DescriptionError: too many brackets in long paragraphs.
+    """
+    looks = 0
+
+    def limit_looks(state: StateCore) -> None:
+        nonlocal looks
+        for token in state.tokens:
+            looks += token.content.count("[") * len(token.content) if token.type == "inline" else 0
+            if looks > _MAX_LOOKS:
+                line = None if token.map is None else token.map[0] + 1
+                problem = f"{token.content.count('[')} brackets '[' in {len(token.content)} characters are too many"
+                raise DescriptionError(Source(file, line), f"{problem}; divide the paragraph, or write a code block")
+
+    parser = MarkdownIt("commonmark")
+    parser.core.ruler.before("inline", "limit_looks", limit_looks)
+    return list(SyntaxTreeNode(parser.parse(text)).children)
 
 
 def line_of(node: SyntaxTreeNode) -> int:

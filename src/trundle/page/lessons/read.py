@@ -73,12 +73,12 @@ def parse_lesson(text: str, *, file: str) -> Lesson:
         file: name in errors.
 
     Raises:
-        DescriptionError: no title or steps, or an invalid check.
+        DescriptionError: no title or steps, an invalid check, or brackets that take long to read.
     """
     front = _FRONT.match(text)
     start, needs = _read_front(front[1], file) if front else ("", ())
     body = text if front is None else "\n" * front[0].count("\n") + text[front.end() :]
-    nodes = parse_markdown(body)
+    nodes = parse_markdown(body, file=file)
     headings = [index for index, node in enumerate(nodes) if node.type == "heading" and node.tag in ("h1", "h2")]
     if not headings or nodes[headings[0]].tag != "h1":
         raise DescriptionError(Source(file), "a lesson begins with its title: '# Drive a robot'")
