@@ -4,9 +4,6 @@ A cloud of a million points at 5 Hz, the Topics panel with 100 topics at 10 Hz, 
 """
 
 import json
-import signal
-import subprocess
-import sys
 import tempfile
 import time
 from collections.abc import Callable, Generator
@@ -19,7 +16,8 @@ import numpy as np
 
 from bench.chromium import chromium, is_installed
 from bench.page import process
-from bench.page_pointer import many_models, page_address
+from bench.page_pointer import many_models
+from bench.running_page import running_page
 from bench.table import Row
 from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, RvizFile, Session
@@ -112,15 +110,8 @@ def _moving_world() -> Generator[str]:
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "many.sdf")
         file.write_text(many_models("<gravity>0 0 0.01</gravity>"))
-        words = ("-m", "trundle", "run", str(file), "--no-ros", "--port", "0")
-        with subprocess.Popen(
-            [sys.executable, *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
-        ) as running:
-            try:
-                yield page_address(running)
-            finally:
-                running.send_signal(signal.SIGINT)
-                running.communicate()
+        with running_page(str(file)) as url:
+            yield url
 
 
 def _publish_clouds(pipe: Connection, master_uri: str) -> None:

@@ -2,15 +2,13 @@
 
 import json
 import re
-import signal
-import subprocess
-import sys
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from bench.chromium import chromium, is_installed
+from bench.running_page import running_page
 from bench.table import Row
 
 _PATIENCE_MS = 120_000
@@ -38,11 +36,7 @@ def measure(browser: Any) -> dict[str, float]:
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "many.sdf")
         file.write_text(many_models())
-        words = ("-m", "trundle", "run", str(file), "--no-ros", "--pause", "--port", "0")
-        with subprocess.Popen(
-            [sys.executable, *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
-        ) as running:
-            url = page_address(running)
+        with running_page(str(file), "--pause") as url:
             page = browser.new_page(viewport={"width": 1440, "height": 900})
             page.set_default_timeout(_PATIENCE_MS)
             page.goto(url)
@@ -53,8 +47,6 @@ def measure(browser: Any) -> dict[str, float]:
             page.wait_for_timeout(1000)
             shares = _by_gesture(browser, page)
             page.close()
-            running.send_signal(signal.SIGINT)
-            running.communicate()
     return shares
 
 
@@ -129,12 +121,6 @@ def _duration_us(event: Any) -> float:
 
 def _type(event: Any) -> str:
     return str(event.get("args", {}).get("data", {}).get("type", ""))
-
-
-def page_address(running: subprocess.Popen[str]) -> str:
-    """Wait until a command has printed its page's address."""
-    assert running.stderr is not None
-    return next(match[1] for line in running.stderr if (match := re.search(r"see it at (\S+)", line)))
 
 
 def many_models(settings: str = "") -> str:

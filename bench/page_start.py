@@ -1,14 +1,11 @@
 """The page in headless Chromium: time from the printed URL of `trundle run` until the world is drawn."""
 
-import re
-import signal
 import statistics
-import subprocess
-import sys
 import time
 from typing import Any
 
 from bench.chromium import chromium, is_installed
+from bench.running_page import running_page
 from bench.table import Row
 
 _RUNS = 3
@@ -32,12 +29,7 @@ def run() -> list[Row]:
 def _usable_s(browser: Any) -> float:
     """Return the time from the printed URL until the page is usable [s]."""
     page = browser.new_page(viewport={"width": 1440, "height": 900})  # the window is open before the start
-    words = ("-m", "trundle", "run", "rp2w_at_home.world", "--no-ros", "--port", "0")
-    with subprocess.Popen(
-        [sys.executable, *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
-    ) as running:
-        assert running.stderr is not None
-        url = next(match[1] for line in running.stderr if (match := re.search(r"see it at (\S+)", line)))
+    with running_page("rp2w_at_home.world") as url:
         started = time.monotonic()
         page.goto(url, wait_until="commit")
         page.get_by_role("button", name="Pause").first.wait_for(timeout=_PATIENCE_MS)
@@ -46,6 +38,4 @@ def _usable_s(browser: Any) -> float:
         page.evaluate(_DRAWN)
         elapsed_s = time.monotonic() - started
         page.close()
-        running.send_signal(signal.SIGINT)
-        running.communicate()
     return elapsed_s
