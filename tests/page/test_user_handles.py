@@ -160,7 +160,7 @@ def test_a_typed_force_acts_for_a_time(user: WorldUser) -> None:
     user.page.get_by_role("treeitem").get_by_text("base", exact=True).last.click()  # the first belongs to the gate
     before = user.position("crate")
     for name, value in (("force x", "-50"), ("duration [s]", "0.2")):
-        user.type(name, value)
+        user.field(name).fill(value)
     user.button("Apply").click()
     user.until(lambda: user.position("crate")[0] < before[0] - 0.3, what=f"{user.position('crate')}, was {before}")
 

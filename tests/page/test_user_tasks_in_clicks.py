@@ -22,32 +22,31 @@ from trundle.page import GraphAddress, PageServer, RvizFile, Session
 pytestmark = [pytest.mark.slow, needs_client]
 
 ORIGINAL = {
-    # wiki.ros.org/rviz/UserGuide, "Adding a new display": Add, the tab "By topic", the topic's display, OK.
+    # rviz's user guide, "Adding a new display": the button Add; in its dialog the tab "By topic", the display, OK.
     "add a display by topic": 4,
-    # The same, "Fixed Frame": click into the value, choose from its list.
-    "change the fixed frame": 2,
-    # The same, "2D Nav Goal": click the tool, drag from the position to the direction.
+    # The same, "The Fixed Frame", a property in the list of displays: type its value.
+    "change the fixed frame": 1,
+    # The same, "2D Nav Goal": the tool, a drag from the place to the direction.
     "set a navigation goal": 2,
     # The same, "2D Pose Estimate": as the goal.
     "set the initial pose": 2,
-    # The same, "Measure": click the tool, click two points.
+    # The status line of rviz's tool Measure: the tool, two points.
     "measure a distance": 3,
-    # wiki.ros.org/rqt_tf_tree: in rqt the menus Plugins, Visualization, TF Tree.
+    # rqt's menus: Plugins, Visualization, TF Tree.
     "show the tree of tf": 3,
-    # classic.gazebosim.org/tutorials?cat=guided_b&tut=guided_b2: the tab Insert or the shape's icon, then the scene;
-    # its shapes are in the toolbar: click the box, click the scene. Here: the tab, and a drag of the box.
+    # Gazebo's tutorial "Building a world" (build_world), "Adding Simple Shapes": the box' icon, a click into the scene.
     "insert a box": 2,
-    # The same, "Translate": click the tool, drag the model.
+    # The same, "Translation": the tool, a drag of the object.
     "move a model": 2,
-    # The same, "Bottom toolbar": click pause, click step.
+    # Gazebo's tutorial "User Interface" (guided_b2), "Bottom Toolbar": the button pause, the button step.
     "pause and step": 2,
-    # classic.gazebosim.org/tutorials?tut=apply_force_torque: right click on the model, "Apply Force/Torque", type the
-    # force, click "Apply Force".
-    "apply a force": 4,
-    # classic.gazebosim.org/tutorials?cat=guided_b&tut=guided_b2, the tab "World": click Physics, open gravity, click z,
-    # type.
-    "change gravity": 4,
-    # The same, "Menus": the menu View, Contacts.
+    # Gazebo's tutorial "Apply Force and Torque via GUI" (apply_force_torque), on the box: a right click, Apply
+    # Force/Torque, a force typed into X, with Enter.
+    "apply a force": 3,
+    # Gazebo's tutorial "Modifying a world" (modifying_world), "Physics Properties", in the tab World, which is open:
+    # the item physics, its block gravity, a number typed into z.
+    "change gravity": 3,
+    # Gazebo's tutorial "Torsional friction" (torsional_friction): the menu View, Contacts.
     "view contacts": 2,
 }
 """Task → actions in rviz, rqt or Gazebo."""
@@ -246,7 +245,6 @@ def test_a_force_is_applied(gazebo: Actions) -> None:
     gazebo.click_scene(-1.0, 0.0, button="right")
     gazebo.choose("Apply force or torque…")
     gazebo.type(user.field("force x"), "-60")
-    gazebo.press("Apply")
     gazebo.check("apply a force", lambda: user.position("crate")[0] < before[0] - 0.05)
 
 

@@ -18,6 +18,8 @@ export interface NumberFieldProps {
   readonly disabled?: boolean;
   readonly before?: ComponentChildren;
   readonly onCommit: (value: number) => void;
+  /** Called when Enter is pressed in a valid number, after it is committed. */
+  readonly onEnter?: (() => void) | undefined;
 }
 
 /** Error sentence if a text is not a number within the limits; null: valid. */
@@ -49,6 +51,7 @@ export function NumberField(props: NumberFieldProps): JSX.Element {
         const number = parseNumber(text);
         if (number !== null && number !== value) onCommit(number);
       }}
+      onEnter={props.onEnter}
       onKey={step}
       class={props.class ?? ""}
       disabled={props.disabled ?? false}

@@ -9,6 +9,8 @@ export interface TextFieldProps {
   /** Returns an error sentence if the text is invalid, otherwise null. */
   readonly check?: (text: string) => string | null;
   readonly onCommit: (text: string) => void;
+  /** Called when Enter is pressed in a valid text, after it is committed. */
+  readonly onEnter?: (() => void) | undefined;
   readonly class?: string;
   readonly placeholder?: string;
   readonly disabled?: boolean;
@@ -45,7 +47,9 @@ export function TextField(props: TextFieldProps): JSX.Element {
       showValue();
       onCommit(changed);
     } else if (event.key === "Enter") {
-      if (check(event.currentTarget.value) === null) commit(event.currentTarget.value);
+      const isValid = check(event.currentTarget.value) === null;
+      if (isValid) commit(event.currentTarget.value);
+      if (isValid) props.onEnter?.();
       input.current?.select();
     } else if (event.key === "Escape") {
       event.currentTarget.value = committed ?? value;

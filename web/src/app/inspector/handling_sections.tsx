@@ -46,7 +46,7 @@ export function ModelButtons({
   );
 }
 
-/** Pushes a link at its centre of mass with the typed force and torque. */
+/** Pushes a link at its centre of mass with the typed force and torque; Enter in a field applies them. */
 export function WrenchSection({
   shell,
   model,
@@ -68,6 +68,7 @@ export function WrenchSection({
   }, [target, model, link]);
   const push = (by: Pick<ApplyWrench, "force" | "torque">, seconds: number): void =>
     shell.request(`Force on ${link}`, "wrench", { model, link, ...by, duration: seconds });
+  const apply = (): void => push({ force: force.value, torque: torque.value }, duration.value);
   const labels = (name: string): readonly string[] => AXES.map((axis) => `${name} ${axis}`);
   return (
     <section class="sec" ref={section}>
@@ -81,6 +82,7 @@ export function WrenchSection({
         unit="N"
         {...LIMITS}
         onCommit={(i, value) => (force.value = withNumber(force.value, i, value))}
+        onEnter={apply}
       />
       <NumbersRow
         name="Torque"
@@ -89,6 +91,7 @@ export function WrenchSection({
         unit="N m"
         {...LIMITS}
         onCommit={(i, value) => (torque.value = withNumber(torque.value, i, value))}
+        onEnter={apply}
       />
       <NumbersRow
         name="For"
@@ -98,9 +101,10 @@ export function WrenchSection({
         min={1e-3}
         max={1e6}
         onCommit={(_, value) => (duration.value = value)}
+        onEnter={apply}
       />
       <div class="sides">
-        <Button small tone="line" onClick={() => push({ force: force.value, torque: torque.value }, duration.value)}>
+        <Button small tone="line" onClick={apply}>
           Apply
         </Button>
         <Button small tone="line" onClick={() => push({ force: ZERO, torque: ZERO }, 1e-3)}>

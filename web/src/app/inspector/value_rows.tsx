@@ -37,9 +37,12 @@ interface NumbersProps {
   readonly min?: number;
   readonly max?: number;
   readonly onCommit: (index: number, value: number) => void;
+  /** Called when Enter is pressed in a number, after it is committed. */
+  readonly onEnter?: () => void;
 }
 
-export function NumbersRow({ name, labels, values, decimals, unit, min, max, onCommit }: NumbersProps): JSX.Element {
+export function NumbersRow(props: NumbersProps): JSX.Element {
+  const { name, labels, values, decimals, unit, min, max, onCommit, onEnter } = props;
   const isSingle = labels.length === 1;
   return (
     <div class="kv numbers">
@@ -59,6 +62,7 @@ export function NumbersRow({ name, labels, values, decimals, unit, min, max, onC
             max={max}
             class="small num"
             onCommit={(value) => onCommit(index, value)}
+            onEnter={onEnter}
           />
         ))}
       </span>
