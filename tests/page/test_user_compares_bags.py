@@ -127,9 +127,5 @@ def test_a_graph_is_watched_beside_a_bag(chromium: Any, drives: tuple[Path, Path
                 return user.number("base_link in odom", "distance", 3)
 
             user.until(lambda: stands() >= 1.0, what="for the differences")
-            user.page.mouse.move(720, 300)
-            for _ in range(5):
-                user.page.mouse.wheel(0, 500)  # the view frames the robot; the ghost is 2.6 m beside it
-                user.page.wait_for_timeout(100)
             user.until(lambda: stands() and user.pixels("--reference") > 200, what="for the ghost's label")
             user.close()

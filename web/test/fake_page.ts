@@ -91,6 +91,15 @@ class FakeWorld implements SimulatedWorld {
   extent(): Box3 {
     return this.box;
   }
+  private ghost = new Box3();
+  /** Compare with a recording whose ghost has an extent. */
+  compare(ghost: Box3): void {
+    this.ghost = ghost;
+    this.reference.value = {} as Reference;
+  }
+  referenceBounds(): Box3 {
+    return this.ghost.clone();
+  }
 }
 
 export class FakeScene implements SceneView {
@@ -115,8 +124,12 @@ export class FakeScene implements SceneView {
     return () => this.ticks.delete(callback);
   }
   /** A frame is drawn. */
-  tick(): void {
-    for (const callback of this.ticks) callback(0.03);
+  tick(elapsed = 0.03): void {
+    for (const callback of this.ticks) callback(elapsed);
+  }
+  /** Frames are drawn for some seconds. */
+  wait(seconds: number): void {
+    for (let time = 0; time < seconds; time += 0.03) this.tick();
   }
   addStep(): () => void {
     return () => undefined;
@@ -147,8 +160,15 @@ export class FakeViews implements Views {
   readonly saved = signal<readonly ViewController[]>([]);
   readonly framed: Box3[] = [];
   readonly layout = signal<PaneLayout>("one");
-  readonly active = signal<ViewPane>(fakePane(this.current));
-  readonly panes = signal<readonly ViewPane[]>([this.active.value]);
+  readonly pane = fakePane(this.current, this.framed);
+  readonly active = signal<ViewPane>(this.pane);
+  readonly panes = signal<readonly ViewPane[]>([this.pane]);
+  /** Show one more pane. */
+  addPane(): FakePane {
+    const pane = fakePane(signal(fakeView("rviz/Orbit")), this.framed);
+    this.panes.value = [...this.panes.value, pane];
+    return pane;
+  }
   onFileLayout: (layout: PaneLayout) => void = (layout) => {
     this.layout.value = layout;
   };
@@ -168,9 +188,6 @@ export class FakeViews implements Views {
     return { ...this.current.value, name: signal(name), save: () => ({ Name: name }) };
   }
   frame(box: Box3): void {
-    this.framed.push(box);
-  }
-  frameInAll(box: Box3): void {
     this.framed.push(box);
   }
   focus(): void {
@@ -199,10 +216,20 @@ export class FakeViews implements Views {
   }
 }
 
-/** A pane with a view. */
-export function fakePane(current: ViewPane["current"]): ViewPane {
+type FakePane = ReturnType<typeof fakePane>;
+
+/** A pane with a view; `framed` receives what it frames. */
+export function fakePane(current: ViewPane["current"], framed: Box3[] = []) {
   const place = { area: { left: 0, top: 0, width: 1, height: 1 }, insets: { left: 0, right: 0, top: 0, bottom: 0 } };
-  return { current, place: signal(place), cameraFrame: signal(null), load: (yaml) => current.peek().load(yaml) };
+  return {
+    current,
+    place: signal(place),
+    free: signal({ left: 0, top: 0, width: 1, height: 1 }),
+    isChosen: signal(false),
+    frameFirst: (box) => void framed.push(box.clone()),
+    cameraFrame: signal(null),
+    load: (yaml) => current.peek().load(yaml),
+  } satisfies ViewPane;
 }
 
 function fakeView(className: string): ViewController {

@@ -1,25 +1,13 @@
-/** First look of a page: displays of the session's file or its kind's defaults, and the robot in the middle. */
+/** First displays of a page: those of the session's file, or its kind's defaults. */
 
 import { computed, effect, untracked } from "@preact/signals";
-import { Box3, Sphere } from "three";
 
-import type { Rgb, Yaml } from "../rviz/properties";
-import type { Area } from "../scene/free_area";
-import { differs, firstBox, robotBox, simulatedRobot } from "./views/framing";
+import type { Rgb } from "../rviz/properties";
+import { simulatedRobot } from "./views/framing";
+import { loadTf } from "./views/first_view";
 import type { Shell } from "./shell";
-import { linkedView, showLinkedView } from "./views/view_link";
 import { bodiesOf } from "../page/world_nodes";
 
-/** Events by which a person moves the camera, and those of any act on the page. */
-const MOVES = ["pointerdown", "wheel", "keydown"] as const;
-const ACTS = ["pointerdown", "keydown", "hashchange"] as const;
-/** Wall seconds in which more of a robot may appear, and in which one may come into a world. */
-const SETTLING = 3;
-const COMING = 120;
-/** Marker Scale of a robot's frames per radius [1/m]: axes are a sixth of the radius long. */
-const AXES_SHARE = 0.8;
-/** First view of a robot: from the front right, at a standing person's height [rad]. */
-const FIRST_LOOK: Readonly<Record<string, number>> = { Yaw: -1.05, Pitch: 0.4 };
 /** The scene's own background, by theme: --scene. */
 const BACKGROUNDS: Readonly<Record<"dark" | "light", Rgb>> = { dark: [22, 25, 28], light: [207, 211, 214] };
 
@@ -81,11 +69,6 @@ function disable({ page }: Shell, className: string): void {
     if (display.className === className) display.enabled.decode(false);
 }
 
-function loadTf({ page }: Shell, name: string, yaml: Yaml): void {
-  const tf = page.displays.displays.peek().find(({ className }) => className === "rviz/TF");
-  tf?.properties.find((property) => property.name === name)?.load(yaml);
-}
-
 /** Show only the robot's frames of a simulated world, and select the robot. */
 function showRobotsFrames(shell: Shell): void {
   const { page } = shell;
@@ -111,70 +94,4 @@ function showRobot({ page }: Shell): void {
       if (display.className === "rviz/RobotModel") display.enabled.decode(true);
     queueMicrotask(() => stop()); // also if it is defined already
   });
-}
-
-/** Show the view of the page's address, now and whenever it changes; true: the address has one. */
-function showLinked(shell: Shell): boolean {
-  const show = (): boolean => {
-    const linked = linkedView(location.hash);
-    if (linked !== null) showLinkedView(shell.page.views, shell.split, linked);
-    return linked !== null;
-  };
-  addEventListener("hashchange", show);
-  return show();
-}
-
-/**
- * Frame the robot once it appears, unless a file has a view or a person has moved the camera.
- *
- * Dock, tiles and disc come in any order: it is framed again for the part that they leave free, until a person acts.
- */
-export function startView(shell: Shell): void {
-  const { page } = shell;
-  const { session, world, scene, views } = page;
-  if (showLinked(shell) || session.rviz !== null) return;
-  for (const property of views.current.peek().properties) {
-    const first = FIRST_LOOK[property.name];
-    if (first !== undefined) property.decode(first);
-  }
-  const framed = new Box3();
-  let room: Area | null = null; // for which it was framed
-  let [isSettled, isTouched] = [false, false];
-  let age = 0;
-  const isLoading = (): boolean =>
-    world.manifest.peek() === null
-      ? session.kind === "simulation" || session.kind === "log"
-      : world.progress.peek() < 1;
-  const stop = scene.onTick((elapsed) => {
-    age += elapsed;
-    if (!framed.isEmpty() && (age > COMING || (isSettled && isTouched))) leave();
-    if (isLoading()) return;
-    const isWorld = world.manifest.peek() !== null;
-    const hasRobot = simulatedRobot(page) !== undefined;
-    const mayGrow = framed.isEmpty() || (!isSettled && (hasRobot || !isWorld));
-    const box = mayGrow ? firstBox(page) : framed;
-    if (box.isEmpty()) return;
-    const free = scene.freePart.peek();
-    if (differs(box, framed) || (!isTouched && !isAsLarge(free, room))) {
-      room = free;
-      views.frameInAll(framed.copy(box));
-      const { radius } = robotBox(page).getBoundingSphere(new Sphere());
-      loadTf(shell, "Marker Scale", Number((AXES_SHARE * radius).toPrecision(1)));
-    }
-    isSettled ||= hasRobot || (!isWorld && age > SETTLING);
-  });
-  const touch = (): void => {
-    isTouched = true;
-  };
-  const leave = (): void => {
-    stop();
-    for (const kind of MOVES) scene.element.removeEventListener(kind, leave);
-    for (const kind of ACTS) removeEventListener(kind, touch, true);
-  };
-  for (const kind of MOVES) scene.element.addEventListener(kind, leave);
-  for (const kind of ACTS) addEventListener(kind, touch, true);
-}
-
-function isAsLarge(area: Area, other: Area | null): boolean {
-  return area.width === other?.width && area.height === other.height;
 }

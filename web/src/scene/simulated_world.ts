@@ -55,6 +55,8 @@ export interface SimulatedWorld {
   pose(body: number): Transform | null;
   object(body: number): Object3D | null;
   bounds(bodies: readonly number[]): Box3;
+  /** Extent of the compared recording's ghost of a model, or null: of all its models; empty: none is shown. */
+  referenceBounds(model: string | null): Box3;
   /** Extent of bodies' visible surfaces in the axes of one of them, so that it is the same wherever they stand. */
   extent(bodies: readonly number[], of: number): Box3;
 }

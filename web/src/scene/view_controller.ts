@@ -24,6 +24,12 @@ export interface ViewController {
 export interface ViewPane {
   readonly current: ReadonlySignal<ViewController>;
   readonly place: ReadonlySignal<PaneArea>;
+  /** The part that no panel covers, within the pane [px]. */
+  readonly free: ReadonlySignal<Area>;
+  /** True once anything but `frameFirst` has changed its view. */
+  readonly isChosen: Signal<boolean>;
+  /** Move smoothly so that a box of the fixed frame fills the pane, unless its view was chosen. */
+  frameFirst(box: Box3): void;
   /** Rectangle of the picture in the pane while looking through a camera [px]; null: not through a camera. */
   readonly cameraFrame: ReadonlySignal<Area | null>;
   /** Load a view from a file. */
@@ -50,8 +56,6 @@ export interface Views {
   copyCurrent(name: string): ViewController;
   /** Move smoothly so that a box of the fixed frame fills the free part of the scene. */
   frame(box: Box3): void;
-  /** Move every shown pane so that a box of the fixed frame fills it. */
-  frameInAll(box: Box3): void;
   focus(point: Vector3): void;
   lookFrom(side: SixSides): void;
   /** Switch between a perspective and an orthographic view of the same focal point. */

@@ -4,7 +4,8 @@ import { Box3, Sphere, Vector3 } from "three";
 import { beforeEach, describe, expect, it } from "vitest";
 
 import { Shell } from "../../src/app/shell";
-import { startDisplays, startView } from "../../src/app/start";
+import { startDisplays } from "../../src/app/start";
+import { startView } from "../../src/app/views/first_view";
 import { fakePage, type FakePage } from "../fake_page";
 import { MANIFEST } from "../harness/manifest";
 
@@ -59,18 +60,55 @@ describe("the first view of a page", () => {
 
   it("frames the robot again for the part that the dock leaves free, until a person acts", () => {
     const page = fakePage();
-    const { freePart } = page.scene;
+    const { free } = page.views.pane;
     page.world.manifest.value = MANIFEST;
     startView(shellOf(page));
     page.scene.tick();
-    freePart.value = { left: 0, top: 0, width: 1, height: 0.5 };
+    free.value = { left: 0, top: 0, width: 1, height: 0.5 };
     page.scene.tick();
     page.scene.tick();
     expect(page.views.framed).toHaveLength(2);
     document.body.dispatchEvent(new Event("keydown"));
-    freePart.value = { left: 0, top: 0, width: 1, height: 0.4 };
+    free.value = { left: 0, top: 0, width: 1, height: 0.4 };
     page.scene.tick();
     expect(page.views.framed).toHaveLength(2);
+  });
+
+  it("frames the robot in each pane for the part that is free there", () => {
+    const page = fakePage();
+    const second = page.views.addPane();
+    page.world.manifest.value = MANIFEST;
+    startView(shellOf(page));
+    page.scene.tick();
+    expect(page.views.framed).toHaveLength(2);
+    second.free.value = { left: 0, top: 0, width: 1, height: 0.5 };
+    page.scene.tick();
+    page.scene.tick();
+    expect(page.views.framed).toHaveLength(3);
+  });
+
+  it("shows the robot and its ghost, however far apart, until a person chooses a view", () => {
+    const page = fakePage();
+    const shows = (x: number): boolean | undefined => page.views.framed.at(-1)?.containsPoint(new Vector3(x, 0, 0.6));
+    page.world.manifest.value = MANIFEST;
+    startView(shellOf(page));
+    page.scene.tick();
+    expect(shows(6)).toBe(false);
+    document.body.dispatchEvent(new Event("keydown"));
+    page.world.compare(new Box3(new Vector3(5, -1, 0), new Vector3(7, 1, 1)));
+    page.scene.wait(0.5);
+    expect([shows(0), shows(6)]).toEqual([true, true]);
+    const count = page.views.framed.length;
+    page.world.compare(new Box3(new Vector3(5.1, -1, 0), new Vector3(7.1, 1, 1)));
+    page.scene.wait(0.5);
+    expect(page.views.framed).toHaveLength(count);
+    page.world.compare(new Box3(new Vector3(19, -1, 0), new Vector3(21, 1, 1)));
+    page.scene.wait(0.5);
+    expect(shows(20)).toBe(true);
+    page.views.pane.isChosen.value = true;
+    page.world.compare(new Box3(new Vector3(49, -1, 0), new Vector3(51, 1, 1)));
+    page.scene.wait(0.5);
+    expect(page.views.framed).toHaveLength(count + 1);
   });
 
   it("frames a robot that comes after a person has acted", () => {

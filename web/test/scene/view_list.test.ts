@@ -224,3 +224,29 @@ test.each([
   views.load({ Current: { Class: "rviz/Orbit", Distance: 4 }, "Trundle Panes": panes });
   expect(views.panes.value.length).toBeGreaterThan(0);
 });
+
+test("a view frames by itself until it is chosen", () => {
+  const box = (x: number): Box3 => new Box3(new Vector3(x - 1, -1, 0), new Vector3(x + 1, 1, 2));
+  const choices: readonly ((views: ViewList) => void)[] = [
+    (views) => views.frame(box(3)),
+    (views) => views.focus(new Vector3(3, 0, 1)),
+    (views) => views.lookFrom("top"),
+    (views) => views.use("rviz/TopDownOrtho"),
+    (views) => void views.current.value.properties.find(({ name }) => name === "Yaw")?.decode(0.5),
+  ];
+  for (const choose of choices) {
+    const one = setUp();
+    const pane = one.views.active.value;
+    pane.frameFirst(box(5));
+    one.wait(1);
+    expect(pane.isChosen.value).toBe(false);
+    expect(pane.current.value.focus(pane.target).x).toBeCloseTo(5);
+    choose(one.views);
+    one.wait(1);
+    expect(pane.isChosen.value).toBe(true);
+    const before = pane.current.value.focus(pane.target).x;
+    pane.frameFirst(box(9));
+    one.wait(1);
+    expect(pane.current.value.focus(pane.target).x).toBe(before);
+  }
+});

@@ -21,9 +21,17 @@ export function frameSelection(page: Page, selection: Selection | null): void {
 
 /**
  * Box that is framed at first: the robot stands in the lower third of the view, at a distance that depends on its size
- * alone, or all else is in the middle; empty: nothing to see yet.
+ * alone, or all else is in the middle; the ghost of a compared recording is beside it. Empty: nothing to see yet.
  */
 export function firstBox(page: Page): Box3 {
+  const box = firstBoxOfRobot(page);
+  const ghost = referenceBox(page);
+  if (box.isEmpty() || ghost.isEmpty()) return box;
+  const hasRobot = simulatedRobot(page) !== undefined || page.world.manifest.peek() === null;
+  return box.union(hasRobot ? standing(ghost, ghost.getCenter(new Vector3())) : ghost);
+}
+
+function firstBoxOfRobot(page: Page): Box3 {
   const robot = simulatedRobot(page);
   const box = robotBox(page);
   if (page.world.manifest.peek() === null) return box.isEmpty() ? box : standing(box, box.getCenter(new Vector3()));
@@ -52,6 +60,7 @@ function standing(extent: Box3, centre: Vector3): Box3 {
 const FRAMED = 0.9;
 /** Smallest half of the view [m]. */
 const SMALLEST = 0.1;
+const AXES = ["x", "y", "z"] as const;
 
 /** The simulated world's robot. */
 export function simulatedRobot(page: Page): ScopedModel | undefined {
@@ -65,6 +74,20 @@ export function robotBox(page: Page): Box3 {
   const robot = simulatedRobot(page);
   const bodies = robot === undefined ? manifest.models.flatMap(bodiesOf) : bodiesOf(robot.model);
   return bodies.length > 0 ? page.world.bounds(bodies) : new Box3(new Vector3(-2, -2, 0), new Vector3(2, 2, 1));
+}
+
+/** Extent of the robot's ghost, or of everything's, while a recording is compared; otherwise empty. */
+export function referenceBox({ world }: Page): Box3 {
+  if (world.reference.peek() === null) return new Box3();
+  return world.referenceBounds(robotOf(world.manifest.peek())?.name ?? null);
+}
+
+/** True if the view in which a box was framed shows all of another one. */
+export function shows(framed: Box3, box: Box3): boolean {
+  const { center, radius } = framed.getBoundingSphere(new Sphere());
+  const [low, high] = [box.min.clone().sub(center), box.max.clone().sub(center)];
+  const farthest = new Vector3(...AXES.map((axis) => Math.max(-low[axis], high[axis])));
+  return farthest.length() <= radius / FRAMED;
 }
 
 /** Extent of the robot models that are drawn, else of the frames. */

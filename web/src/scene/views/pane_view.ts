@@ -22,6 +22,8 @@ const SMALLEST = 0.1;
 export class PaneView implements ViewPane {
   readonly view;
   readonly place: ReadonlySignal<PaneArea>;
+  readonly free: ReadonlySignal<Area>;
+  readonly isChosen = signal(false);
   /** Size and free area of the picture. */
   readonly size = computed<Picture>(() => {
     const { width, height } = this.pane.place.value.area;
@@ -36,7 +38,9 @@ export class PaneView implements ViewPane {
   private readonly orthographic = new OrthographicCamera();
   private readonly before = new Float64Array(16);
   private motion: CameraMotion | null = null;
-  private readonly stop: () => void;
+  /** True while the view changes by itself. */
+  private isMoving = false;
+  private readonly stops: readonly (() => void)[];
 
   /** `targetPose`: pose of a frame or body (`model::link`) in the fixed frame; null: there is none. */
   constructor(
@@ -46,20 +50,24 @@ export class PaneView implements ViewPane {
     private readonly invalidate: () => void,
   ) {
     this.place = pane.place;
+    this.free = pane.free;
     this.view = signal(first);
     this.show(first);
     let view = first;
     let frame = first.targetFrame.value.peek();
-    this.stop = effect(() => {
-      const [oldFrame, oldView] = [frame, view];
-      view = this.view.value;
-      frame = view.targetFrame.value.value;
-      if (view === oldView && frame !== oldFrame) this.onTarget(view, oldFrame, frame);
-    });
+    this.stops = [
+      effect(() => {
+        const [oldFrame, oldView] = [frame, view];
+        view = this.view.value;
+        frame = view.targetFrame.value.value;
+        if (view === oldView && frame !== oldFrame) this.onTarget(view, oldFrame, frame);
+      }),
+      this.noteChoice(),
+    ];
   }
 
   dispose(): void {
-    this.stop();
+    for (const stop of this.stops) stop();
   }
 
   get current(): ReadonlySignal<View> {
@@ -104,16 +112,21 @@ export class PaneView implements ViewPane {
   }
 
   frame(box: Box3): void {
-    if (box.isEmpty()) return;
-    const { center, radius } = box.getBoundingSphere(new Sphere());
-    this.move(this.view.peek().frame(center, Math.max(SMALLEST, radius), this.target, this.picture));
+    if (!box.isEmpty()) this.isChosen.value = true;
+    this.moveTo(box);
+  }
+
+  frameFirst(box: Box3): void {
+    if (!this.isChosen.peek()) this.moveTo(box);
   }
 
   focus(point: Vector3): void {
+    this.isChosen.value = true;
     this.move(this.view.peek().frame(point, 0, this.target, this.picture));
   }
 
   lookFrom(side: SixSides): void {
+    this.isChosen.value = true;
     if (this.view.peek().lookFrom(side) === null) this.use("rviz/Orbit");
     this.move(this.view.peek().lookFrom(side) ?? []);
   }
@@ -139,7 +152,9 @@ export class PaneView implements ViewPane {
   }
 
   tick(elapsed: number): void {
+    this.isMoving = true;
     if (this.motion?.advance(elapsed) === true) this.motion = null;
+    this.isMoving = false;
     const view = this.view.peek();
     const target = this.resolve(view.targetFrame.value.peek());
     if (target !== null) this.smooth.follow(target, elapsed);
@@ -153,6 +168,22 @@ export class PaneView implements ViewPane {
 
   private resolve(frame: string): Transform | null {
     return frame === FIXED_FRAME || frame === "" ? ORIGIN : this.targetPose(frame);
+  }
+
+  /** Note that a view was chosen when it is another one, or its properties change. */
+  private noteChoice(): () => void {
+    let isFirst = true;
+    return effect(() => {
+      for (const { value } of this.view.value.properties) value.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- changes with each of them
+      if (!isFirst && !this.isMoving) this.isChosen.value = true;
+      isFirst = false;
+    });
+  }
+
+  private moveTo(box: Box3): void {
+    if (box.isEmpty()) return;
+    const { center, radius } = box.getBoundingSphere(new Sphere());
+    this.move(this.view.peek().frame(center, Math.max(SMALLEST, radius), this.target, this.picture));
   }
 
   private move(motions: readonly Motion[]): void {

@@ -93,10 +93,6 @@ export class ViewList implements Views {
     this.active.peek().frame(box);
   }
 
-  frameInAll(box: Box3): void {
-    for (const view of this.panes.peek()) view.frame(box);
-  }
-
   focus(point: Vector3): void {
     this.active.peek().focus(point);
   }

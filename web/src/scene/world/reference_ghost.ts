@@ -1,6 +1,7 @@
 /** The recording that the world is compared with, as a translucent copy of its models. */
 
 import {
+  Box3,
   Color,
   Group,
   Mesh,
@@ -104,6 +105,17 @@ export class ReferenceGhost {
     root.position.copy(position);
     root.quaternion.copy(orientation);
     return true;
+  }
+
+  /** Extent in the fixed frame of the shown copies of some links. */
+  bounds(isOf: (link: string) => boolean): Box3 {
+    const box = new Box3();
+    for (const copy of this.copies) {
+      if (!copy.visible || !isOf(copy.name)) continue;
+      copy.updateWorldMatrix(true, false);
+      box.union(new Box3().setFromObject(copy));
+    }
+    return box;
   }
 
   /** Show the models that are not hidden. */

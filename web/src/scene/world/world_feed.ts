@@ -103,6 +103,10 @@ export class WorldFeed implements SimulatedWorld {
     return box;
   }
 
+  referenceBounds(model: string | null): Box3 {
+    return this.compared.bounds(model);
+  }
+
   extent(bodies: readonly number[], of: number): Box3 {
     const box = new Box3();
     this.scene.world.updateWorldMatrix(true, true);

@@ -1,7 +1,7 @@
 /** The recording that the page compares with: fetched when it is named, and shown as a ghost. */
 
 import { signal } from "@preact/signals";
-import { Quaternion, Vector3, type Object3D } from "three";
+import { Box3, Quaternion, Vector3, type Object3D } from "three";
 
 import type { DrawnFrames } from "../../frames/frame_tree";
 import { NoTransform } from "../../frames/transform";
@@ -83,6 +83,12 @@ export class WorldReference {
       if (time > 0n) return Number(time) / 1e9;
     }
     return null;
+  }
+
+  /** Extent of the ghost of a model, or null: of all, in the fixed frame; empty: none is shown. */
+  bounds(model: string | null): Box3 {
+    if (this.shownAt === null) return new Box3();
+    return this.ghost.bounds((link) => model === null || link.startsWith(`${model}::`));
   }
 
   hide(isHidden: (link: string) => boolean): void {
