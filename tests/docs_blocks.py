@@ -11,6 +11,8 @@ An HTML comment before a fence is a mark: `<!-- not run: REASON -->`, `<!-- fail
 `<!-- keeps running: TEXT -->`: the next block runs after TEXT is printed, and SIGINT is sent at the page's end or
 before a block with `<!-- after Ctrl-C -->` or `<!-- after Ctrl-C, keeps running: TEXT -->`. `trundle core` gets the
 port of the page's ROS_MASTER_URI.
+`<!-- figures vary -->` before a ```text fence: any number may be in place of each of its numbers.
+`<!-- needs the tutorials' files -->` at the start of a page: a test of its own has them.
 `<!-- slow -->` at the start of a page, or after its front matter: it runs only in `make test-all`.
 """
 
@@ -47,6 +49,10 @@ _FENCE = re.compile(
     r"(?P<text>.*?)^(?P=indent)(?P=ticks)[ ]*$",
     re.MULTILINE | re.DOTALL,
 )
+
+_NUMBER = re.compile(r"-?\d+(\.\d+)?")
+_OTHERS_FILES = "<!-- needs the tutorials' files -->"
+_NOTHING = re.compile(r"(?!)")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -87,8 +93,8 @@ def read_blocks(page: Path) -> list[Block]:
 
 
 def has_blocks(page: Path) -> bool:
-    """Return whether a page has blocks to run."""
-    return bool(read_blocks(page)) or _has_doctest(page)
+    """Return whether a page has blocks to run, without files of others."""
+    return not page.read_text().startswith(_OTHERS_FILES) and (bool(read_blocks(page)) or _has_doctest(page))
 
 
 def _has_doctest(page: Path) -> bool:
@@ -110,11 +116,11 @@ def run_page(page: Path, folder: Path, *, commands: Path = COMMANDS) -> None:
     with ExitStack() as running:
         for block, after in itertools.zip_longest(blocks, blocks[1:]):
             name = f"{page.relative_to(ROOT)}:{block.line}"
-            expected = after.text if after and (after.language, after.title) == ("text", None) else None
+            expected = after if after and (after.language, after.title) == ("text", None) else None
             _run_block(block, expected, page_folder, name, running)
 
 
-def _run_block(block: Block, expected: str | None, page_folder: Folder, name: str, running: ExitStack) -> None:
+def _run_block(block: Block, expected: Block | None, page_folder: Folder, name: str, running: ExitStack) -> None:
     if block.mark.startswith("not run:"):
         return
     if block.mark.startswith("after Ctrl-C"):
@@ -151,10 +157,12 @@ def _run(command: list[str], page_folder: Folder, name: str, *, code: int = 0) -
     return process.stdout
 
 
-def _compare(output: str, expected: str | None, name: str) -> None:
+def _compare(output: str, expected: Block | None, name: str) -> None:
     if expected is not None:
-        matches = OutputChecker().check_output(f"\n{expected}", f"\n{output}", ELLIPSIS)
-        assert matches, f"{name} prints\n{output}\nand not\n{expected}"
+        same = _NUMBER if expected.mark == "figures vary" else _NOTHING
+        wanted, printed = (same.sub("0", text) for text in (expected.text, output))
+        matches = OutputChecker().check_output(f"\n{wanted}", f"\n{printed}", ELLIPSIS)
+        assert matches, f"{name} prints\n{output}\nand not\n{expected.text}"
 
 
 @contextmanager

@@ -2,6 +2,7 @@
 
 import re
 import runpy
+import shutil
 from collections import Counter
 from pathlib import Path
 
@@ -19,7 +20,7 @@ REASONS = Counter(
         "minutes, to set everything up": 1,
         "stable-baselines3": 1,  # tests/gym has it
         "the cart, which is built by hand above": 1,  # tests/page/test_user_builds_a_cart.py builds it
-        "the net": 8,
+        "the net": 11,
         "the robot above": 2,  # tests/navigation/move_base drives another one
         "the tutorial's files": 1,  # tests/system/test_smartcar.py has them
     }
@@ -58,6 +59,17 @@ def test_a_page_runs_where_the_tutorials_model_is(page: str, shared: Path, tmp_p
     (tmp_path / ".gazebo/models").mkdir(parents=True)
     (tmp_path / ".gazebo/models/rp2w").symlink_to(shared / "seeds/rp2w")
     run_page(ROOT / page, tmp_path)
+
+
+@pytest.mark.slow
+def test_the_tutorials_run_with_their_own_files(shared: Path, tmp_path: Path) -> None:
+    for folder in (".gazebo/models", "Downloads", "catkin_ws/src"):
+        (tmp_path / folder).mkdir(parents=True)
+    shutil.copytree(shared / "seeds/rp2w", tmp_path / ".gazebo/models/rp2w")
+    shutil.copytree(shared / "seeds/smartcar_description", tmp_path / "catkin_ws/src/smartcar_description")
+    shutil.copy(ROOT / "examples/rp2w/rp2w.py", tmp_path / "Downloads")
+
+    run_page(ROOT / "docs/howto/original_tutorials.md", tmp_path)
 
 
 def test_blocks_that_are_not_run_have_known_reasons() -> None:

@@ -1,6 +1,7 @@
 """Version, packaging and release files are consistent."""
 
 import re
+import runpy
 import shlex
 import shutil
 import subprocess
@@ -15,15 +16,54 @@ from trundle.base.extras import rospy_requirements
 
 ROOT = Path(__file__).parents[1]
 CITATION = ROOT / "CITATION.cff"
-THIRD_PARTY = ("mujoco-warp", "cmake", "ninja", "cmeel-boost")
+THIRD_PARTY = ("mujoco-warp", "cmake", "ninja", "cmeel-boost", "jupyterlab")
 """Other projects' packages in the documentation."""
 
 
 @pytest.mark.skipif(not CITATION.is_file(), reason="CITATION.cff is not part of the sdist")
-def test_the_citation_has_the_current_version() -> None:
+def test_the_citation_and_trundle_rospy_have_the_current_version() -> None:
     (version,) = re.findall(r"^version: (.+)$", CITATION.read_text(), re.MULTILINE)
+    rospy = tomllib.loads((ROOT / "packaging/trundle-rospy/pyproject.toml").read_text())["project"]
 
-    assert version == trundle.__version__
+    assert version == rospy["version"] == trundle.__version__
+    assert f"trundle=={version}" in rospy["dependencies"]
+
+
+@pytest.mark.skipif(not CITATION.is_file(), reason="CITATION.cff is not part of the sdist")
+def test_the_repositorys_address_is_written_once_to_all_files(tmp_path: Path) -> None:
+    names = ("pyproject.toml", "mkdocs.yml", "CITATION.cff")
+    for name in names:
+        shutil.copy(ROOT / name, tmp_path)
+    write = runpy.run_path(str(ROOT / "packaging/repository.py"))["write_repository"]
+
+    write(tmp_path, "https://example.org/first/trundle")
+    write(tmp_path, "https://example.org/me/trundle/")
+
+    texts = {name: (tmp_path / name).read_text() for name in names}
+    project = tomllib.loads(texts["pyproject.toml"])["project"]
+    assert project["urls"]["Repository"] == "https://example.org/me/trundle"
+    assert project["urls"]["Issues"] == "https://example.org/me/trundle/issues"
+    assert project.keys() - tomllib.loads((ROOT / "pyproject.toml").read_text())["project"].keys() <= {"urls"}
+    assert texts["mkdocs.yml"].count("\nrepo_url: https://example.org/me/trundle\n") == 1
+    assert texts["CITATION.cff"].count("\nrepository-code: https://example.org/me/trundle\n") == 1
+    assert "example.org/first" not in "".join(texts.values())
+    with pytest.raises(SystemExit, match="is no address"):
+        write(tmp_path, "trundle")
+
+
+def test_links_of_the_readme_are_absolute_on_an_index() -> None:
+    absolute_links = runpy.run_path(str(ROOT / "cpp/readme.py"))["absolute_links"]
+    readme = (ROOT / "README.md").read_text()
+
+    text = absolute_links(readme, "https://example.org/me/trundle")
+
+    targets = re.findall(r"\]\(([^)]+)\)", text) + re.findall(r'src="([^"]+)"', text)
+    assert len(targets) > 20
+    assert [target for target in targets if not target.startswith("https://")] == []
+    assert "![The RP2W" in text
+    assert "](https://example.org/me/trundle/raw/main/docs/page.webp)" in text
+    assert "](https://example.org/me/trundle/blob/main/docs/start.md)" in text
+    assert absolute_links(readme, None) == readme
 
 
 @pytest.mark.skipif(not (ROOT / ".dockerignore").is_file(), reason="the sdist has no hidden files")
@@ -43,17 +83,14 @@ def _pip_lines(*folders: str) -> list[tuple[str, list[str]]]:
 
 
 @pytest.mark.skipif(not (ROOT / "packaging").is_dir(), reason="the documentation's paths are those of a checkout")
-def test_pip_install_lines_of_the_documentation_name_existing_folders() -> None:
-    """Before the first release, neither trundle nor trundle-rospy is on an index."""
+def test_pip_install_lines_of_the_documentation_name_our_projects_and_extras() -> None:
     extras = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
     lines = _pip_lines("docs")
     assert len(lines) > 5
     for line, words in lines:
         for word in words:
-            folder, _, extra = word.rstrip("]").partition("[")
-            if folder in THIRD_PARTY:
-                continue
-            assert (ROOT / folder / "pyproject.toml").is_file(), line
+            name, _, extra = word.rstrip("]").partition("[")
+            assert name in ("trundle", "trundle-rospy", *THIRD_PARTY), line
             assert not extra or extra in extras, line
 
 

@@ -30,28 +30,31 @@ class Entry(NamedTuple):
     """Description of a model that the launch file spawns."""
     pose: tuple[float, ...] = (0.0, 0.0, 0.0)
     """Its pose [m, rad]."""
+    joints: tuple[tuple[str, float], ...] = ()
+    """Positions of its joints [rad or m]."""
 
 
 GALLERY: dict[str, Entry] = {
     "living_room": Entry("trundle run rp2w_at_home.world", "rp2w_at_home.world", (2.6, -1.2, 1.9), (-0.2, 0.9, 0.7)),
     "quadruped": Entry("trundle run quadruped.world", "quadruped.world", (1.6, -1.0, 0.7), (0.45, 0.0, 0.2), 1.6),
     "house": Entry(
-        "trundle launch house_navigation house.launch", "house.world", (-6.2, -5.2, 5.6), (-0.6, -0.4, 0.0),
+        "trundle launch house_navigation house.launch", "house.world", (-5.6, -6.6, 7.2), (-0.2, -0.3, 0.0),
         robot="package://house_navigation/urdf/scout.urdf", pose=(-3.0, -1.5, 0.0),
     ),
     "arm": Entry(
-        "trundle launch arm_control arm.launch", "table.world", (1.5, -1.1, 1.1), (0.25, 0.0, 0.35),
+        "trundle launch arm_control arm.launch", "table.world", (1.8, -1.5, 1.1), (0.3, 0.0, 0.35),
         robot="package://arm_control/urdf/arm.urdf.xacro",
+        joints=(("base", 0.2), ("shoulder", 0.2), ("elbow", 1.2), ("wrist", 1.4), ("left_finger", 0.03), ("right_finger", 0.03)),
     ),
     "sensor_room": Entry("trundle run sensor_room.world", "sensor_room.world", (-3.4, -3.6, 3.4), (0.0, 0.2, 0.0)),
     "smartcar": Entry(
         "trundle launch smartcar drive.launch", "living_room.world", (1.7, -0.5, 0.8), (0.5, 0.6, 0.15),
         robot="package://smartcar/urdf/smartcar.urdf.xacro", pose=(0.8, 0.4, 0.0, 0.0, 0.0, 2.0),
     ),
-    "dominoes": Entry("trundle run dominoes.world", "dominoes.world", (-1.6, -1.6, 1.3), (0.1, 0.9, 0.0), 2.0),
+    "dominoes": Entry("trundle run dominoes.world", "dominoes.world", (-0.9, -2.2, 1.7), (0.1, 0.0, 0.0), 0.8),
     "race": Entry("trundle run race.world", "race.world", (3.4, -2.2, 1.5), (0.2, 0.0, 0.5), 1.4),
     "spinning_top": Entry("trundle run spinning_top.world", "spinning_top.world", (0.4, -0.4, 0.3), (0, 0, 0.1), 1.0),
-    "cradle": Entry("trundle run physics/cradle.world", "physics/cradle.world", (0.3, -1.7, 1.5), (0.1, 0.0, 1.0), 0.1),
+    "cradle": Entry("trundle run physics/cradle.world", "physics/cradle.world", (0.2, -2.4, 1.6), (0.2, 0.0, 1.0), 0.1),
     "pendulum": Entry("trundle run physics/double_pendulum.world", "physics/double_pendulum.world", at_s=0.35),
     "stack": Entry("trundle run physics/stack.world", "physics/stack.world", (1.5, -1.3, 0.9), (0.0, 0.0, 0.5), 1.0),
     "cart_pole": Entry("trundle run cart_pole.world", "cart_pole.world", (2.0, -2.9, 1.9), (0.0, 0.0, 1.2), 0.4),
@@ -133,7 +136,10 @@ def draw(entry: Entry, to: Path, *, film_s: float = 0.0) -> None:
         if entry.robot:
             with trundle.load(entry.robot, warn=False) as alone:
                 model = alone.models[0].model
-            sim.spawn(model).set_pose(entry.pose)
+            robot = sim.spawn(model)
+            robot.set_pose(entry.pose)
+            for joint, position in entry.joints:
+                robot.joint(joint).set_position(position)
         if film_s:
             with sim.film(part, size=FILM_SIZE, **view):
                 sim.run(film_s)

@@ -190,6 +190,16 @@ def test_code_blocks_of_the_documentation_run(page: Path, commands: Path, tmp_pa
     run_page(page, tmp_path, commands=commands)
 
 
+@pytest.mark.skipif(not (ROOT / "packaging").is_dir(), reason="the check of a wheel is not part of the sdist")
+def test_the_check_of_each_wheel_passes(commands: Path, tmp_path: Path) -> None:
+    """As the workflow runs it; here with the dependencies of this environment."""
+    command = [str(commands / "python"), str(ROOT / "packaging/check_wheel.py")]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
+
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert done.stdout.endswith("all checks passed\n")
+
+
 @pytest.mark.skipif(shutil.which("uvx") is None, reason="uvx is not installed")
 def test_uvx_runs_the_wheel(tmp_path: Path) -> None:
     command = ["uvx", "--python", sys.executable, "--from", str(WHEELS[-1]), "trundle", "--version"]
