@@ -44,7 +44,7 @@ GALLERY: dict[str, Entry] = {
     "arm": Entry(
         "trundle launch arm_control arm.launch", "table.world", (1.8, -1.5, 1.1), (0.3, 0.0, 0.35),
         robot="package://arm_control/urdf/arm.urdf.xacro",
-        joints=(("base", 0.2), ("shoulder", 0.2), ("elbow", 1.2), ("wrist", 1.4), ("left_finger", 0.03), ("right_finger", 0.03)),
+        joints=(("base", 0.2), ("shoulder", 0.2), ("elbow", 1.2), ("wrist", 1.4)),
     ),
     "sensor_room": Entry("trundle run sensor_room.world", "sensor_room.world", (-3.4, -3.6, 3.4), (0.0, 0.2, 0.0)),
     "smartcar": Entry(
