@@ -296,7 +296,7 @@ bool GraphSlam::accept_loop(const Constraint& constraint) {
     ++refused_loops_;
     return false;
   }
-  pose_ = carried(pose_, poses.back(), graph_.poses.back());
+  move(poses.back());
   ++loops_;
   return true;
 }
@@ -304,8 +304,14 @@ bool GraphSlam::accept_loop(const Constraint& constraint) {
 void GraphSlam::optimize() {
   const PlanarPose last = graph_.poses.back();
   graph_.optimize();
-  pose_ = carried(pose_, last, graph_.poses.back());
+  move(last);
   pending_links_ = 0;
+}
+
+// Moves the robot with the last node, which was elsewhere.
+void GraphSlam::move(const PlanarPose& last) {
+  pose_ = carried(pose_, last, graph_.poses.back());
+  correction_ = carried(correction_, last, graph_.poses.back());
 }
 
 void GraphSlam::restore(PoseGraph graph, std::vector<RangeScan> scans) {

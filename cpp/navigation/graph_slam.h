@@ -53,6 +53,8 @@ class GraphSlam {
 
   // Pose of the robot in the map at the last scan.
   const PlanarPose& pose() const { return pose_; }
+  // What the graph's optimizations moved the robot by: map_from_local, where the scans alone would have left it.
+  const PlanarPose& correction() const { return correction_; }
   // Puts the robot somewhere; the next scan is searched for in the loop's window.
   void set_pose(const PlanarPose& pose);
   // Covariance of the last match, with the odometry: xx, xy, yy, xt, yt, tt [m], [rad].
@@ -94,6 +96,7 @@ class GraphSlam {
   bool accept_loop(const Constraint& constraint);
   Constraint constraint_to(const Chain& chain, const ScanMatch& match) const;
   void optimize();
+  void move(const PlanarPose& last);
   void count_new();
 
   GraphOptions options_;
@@ -101,6 +104,7 @@ class GraphSlam {
   std::vector<RangeScan> scans_;
   std::vector<Point> centers_;  // on the robot
   PlanarPose pose_, used_pose_;  // at the last scan, and at the last one used
+  PlanarPose correction_;
   Motion since_match_, since_node_;
   double last_time_s_ = -std::numeric_limits<double>::infinity();
   std::array<double, 6> covariance_{}, match_information_{};

@@ -244,6 +244,11 @@ void bind_graph_slam(nb::module_& module) {
                      const PlanarPose& pose = slam.pose();
                      return Triple3{pose.x, pose.y, pose.yaw};
                    })
+      .def_prop_ro("correction",
+                   [](const GraphSlam& slam) {
+                     const PlanarPose& pose = slam.correction();
+                     return Triple3{pose.x, pose.y, pose.yaw};
+                   })
       .def_prop_ro("covariance", &GraphSlam::covariance)
       .def_prop_ro("response", &GraphSlam::response)
       .def_prop_ro("loops", &GraphSlam::loops)

@@ -8,6 +8,11 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("arbotix_python", "arbotix_driver.py"): "trundle.gazebo.nodes.arbotix:ArbotixDriver",
     ("arbotix_python", "arbotix_gui"): "trundle.gazebo.nodes.rqt_windows:Window",
     ("arbotix_python", "driver.py"): "trundle.gazebo.nodes.arbotix:ArbotixDriver",
+    ("cartographer_ros", "cartographer_node"): "trundle.navigation.mapping:CartographerNode",
+    (
+        "cartographer_ros",
+        "cartographer_occupancy_grid_node",
+    ): "trundle.navigation.mapping:CartographerOccupancyGridNode",
     ("controller_manager", "controller_manager"): "trundle.gazebo.nodes.controller_manager:ControllerManagerTool",
     ("controller_manager", "spawner"): "trundle.gazebo.nodes.controller_manager:Spawner",
     ("controller_manager", "spawner.py"): "trundle.gazebo.nodes.controller_manager:Spawner",

@@ -1,3 +1,5 @@
+from .cartographer import CartographerNode as CartographerNode
+from .cartographer_grid import CartographerOccupancyGridNode as CartographerOccupancyGridNode
 from .gmapping import SlamGmapping as SlamGmapping
 from .hector import HectorMapping as HectorMapping
 from .karto import SlamKarto as SlamKarto

@@ -279,6 +279,9 @@ class GraphSlam:
     def pose(self) -> PlanarPose:
         """Pose of the robot in the map at the last scan."""
     @property
+    def correction(self) -> PlanarPose:
+        """What optimizations moved the robot by: map_from_local, where the scans alone would have left it."""
+    @property
     def covariance(self) -> list[float]:
         """Of the last match with the odometry: xx, xy, yy, xt, yt, tt [m], [rad]."""
     @property
