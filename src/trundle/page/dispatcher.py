@@ -226,9 +226,10 @@ class Page:
         return self._streams[topic]
 
     def _simulated_time_ns(self) -> int | None:
-        if self._graph is not None and not isinstance(self._graph.clock, WallClock):
-            return self._graph.clock.now_ns()
-        return self._state.time_ns if self._bag is None else self._bag.time_ns
+        shown_ns = self._state.time_ns if self._bag is None else self._bag.time_ns
+        if self._graph is None or isinstance(self._graph.clock, WallClock):
+            return shown_ns
+        return self._graph.clock.now_ns() or shown_ns or 0  # before the first /clock
 
     # -- for HTTP
 

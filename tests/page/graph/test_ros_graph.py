@@ -12,7 +12,7 @@ from tests.graphs import Graph, running_graph
 from tests.page_client import ProtocolClient
 
 from trundle.base.http.page_address import PageAddress
-from trundle.page import GraphAddress, PageServer, Session
+from trundle.page import ClockState, GraphAddress, PageServer, Session
 from trundle.ros import Core, MasterProxy, Messages, Node, ServiceError
 from trundle.ros.xmlrpc.rpc_server import RpcServer
 
@@ -334,6 +334,26 @@ def test_simulated_time_is_the_time_of_messages(graph: Graph, graph_page: PageSe
         chat.unregister()
     with ProtocolClient(graph_page.url) as client:
         client.until(lambda: client.times[-1:] > [10**18])
+
+
+def test_a_message_before_the_first_clock_has_the_time_of_the_world(graph: Graph) -> None:
+    """At 0 it would be a curve's first point, long before the others."""
+    node = graph.node("early")
+    graph.loop.run(node.params.set("/use_sim_time", True))
+    chat = node.advertise("/early_chat", "std_msgs/String")
+    try:
+        with page_of(graph) as page, ProtocolClient(page.url) as client:
+            page.put_state(ClockState(time_ns=7_000_000_000, paused=False))
+            client.subscribe("trundle/state")
+            client.until(lambda: client.messages)
+            client.subscribe("/early_chat")
+            graph.until(lambda: chat.has_subscribers)
+            chat.publish({"data": "x"})
+            client.until(lambda: client.payloads("/early_chat"))
+            assert [time for topic, time, _ in client.messages if topic == "/early_chat"] == [7_000_000_000]
+    finally:
+        graph.loop.run(node.params.delete("/use_sim_time"))
+        chat.unregister()
 
 
 @pytest.mark.slow
