@@ -18,6 +18,7 @@ from . import core, graph
 from .msg import framed
 
 _CONGESTED_S = 0.0002
+_SHUTDOWN_CHECK_S = 0.1
 
 
 class SubscribeListener:
@@ -141,7 +142,7 @@ class Publication:
     def _wait_for_slowest(self, publisher: "FramePublisher") -> None:
         """Without a queue, publishing waits for the slowest subscriber."""
         while self.queue_size is None and publisher.is_congested and not core.is_shutdown():
-            time.sleep(_CONGESTED_S)
+            publisher.wait_for_room()
 
     def connected(self, send: Callable[[Pieces], object]) -> None:
         """Call the listeners about a new subscriber, to which `send` sends; on the loop."""
@@ -198,6 +199,8 @@ class FramePublisher(GraphPublisher):
             raw_type=(cls._md5sum, cls._full_text),
             unregister=node.endpoints.remove_publisher,
         )
+        self._room = threading.Condition()
+        """Notified when a subscriber that read too slowly has read on."""
         self._publication = publication
         self._frame = self._framed
 
@@ -227,6 +230,17 @@ class FramePublisher(GraphPublisher):
         """Queue the unsent rest of the last message; thread-safe."""
         for out in self._direct:
             out.send_rest()
+
+    def wait_for_room(self) -> None:
+        """Wait while every subscriber reads too slowly, or a short time."""
+        with self._room:
+            if self.is_congested:
+                self._room.wait(_SHUTDOWN_CHECK_S)
+
+    def resume(self) -> None:
+        super().resume()
+        with self._room:
+            self._room.notify_all()
 
     def header_fields(self) -> dict[str, str]:
         return {**super().header_fields(), **self._publication.headers}
