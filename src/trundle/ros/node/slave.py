@@ -200,7 +200,7 @@ class _Inbound(FrameProtocol):
 
     def note_received(self, note: bytes, /) -> None:
         self.out.receive_note(note)
-        self.use_fast_selector(self._node.loop.selector)
+        self.read_through(self._node.loop.selector)
 
     def drained(self) -> None:
         if isinstance(self._target, Publisher):

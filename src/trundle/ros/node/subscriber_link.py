@@ -2,21 +2,25 @@
 
 import asyncio
 import contextlib
+import threading
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any, Protocol
 
 from .. import _message_codec
 from ..errors import MessageError, WireError
 from ..messages.codec import Codec
 from ..messages.raw_message import ANY_TYPE
-from ..transport.fast_selector import FastSelector
 from ..transport.headers import check_md5
 from ..transport.shared_ring import SharedRingReader
-from ..transport.tcpros import FrameProtocol
+from ..transport.tcpros import FrameProtocol, SocketSelector
 
 
 class MessageReceiver(Protocol):
     """Subscription that owns a connection."""
+
+    selector: SocketSelector
+    """Selector that reads the connection."""
 
     @property
     def type(self) -> str:
@@ -47,16 +51,18 @@ class MessageReceiver(Protocol):
 
 
 class SubscriberLink(FrameProtocol):
-    """Connection that requests a topic and forwards its messages; bypasses asyncio after the handshake."""
+    """Connection that requests a topic and forwards its messages; read by the subscription's selector, in its thread.
 
-    def __init__(
-        self, subscription: MessageReceiver, request: dict[str, str], selector: FastSelector, codec: Codec | None
-    ) -> None:
+    Runs on the loop until the handshake is done.
+    """
+
+    def __init__(self, subscription: MessageReceiver, request: dict[str, str], codec: Codec | None) -> None:
         super().__init__()
-        self.ended: asyncio.Future[str] = asyncio.get_running_loop().create_future()
+        self._loop = asyncio.get_running_loop()
+        self._loop_thread = threading.get_ident()
+        self.ended: asyncio.Future[str] = self._loop.create_future()
         self._subscription = subscription
         self._request = request
-        self._loop_selector = selector
         self._receive = _message_codec.receive if codec is None else codec.receive
         self._shared_ring: SharedRingReader | None = None
 
@@ -70,7 +76,11 @@ class SubscriberLink(FrameProtocol):
             raise WireError(f"it carries {header.get('type', 'another type')}, not {self._subscription.type}")
         if header.get("tcp_nodelay") == "1":
             self.set_nodelay()
-        self.use_fast_selector(self._loop_selector)
+
+    def buffer_updated(self, nbytes: int) -> None:
+        super().buffer_updated(nbytes)
+        if self.header is not None:  # after the messages that came with it
+            self.read_through(self._subscription.selector)
 
     def frame_received(self, data: bytes | memoryview) -> None:
         try:
@@ -105,6 +115,14 @@ class SubscriberLink(FrameProtocol):
         if messages:
             self._subscription.receive_batch(messages, self.header or {})
         self._received(count, others)
+
+    def close(self, reason: str = "closed") -> None:
+        if threading.get_ident() == self._loop_thread:
+            super().close(reason)
+            return
+        self._stop_reading()
+        with contextlib.suppress(RuntimeError):  # the loop has ended
+            self._loop.call_soon_threadsafe(partial(super().close, reason))
 
     def closed(self, reason: str, /) -> None:
         if self._shared_ring is not None:

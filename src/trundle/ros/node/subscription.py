@@ -12,7 +12,7 @@ from ..errors import MessageError, RosError, WireError
 from ..messages.codec import Codec
 from ..messages.raw_message import ANY_TYPE, Message, RawMessage
 from ..transport.headers import check_md5
-from ..transport.tcpros import FrameProtocol
+from ..transport.tcpros import FrameProtocol, SocketSelector
 from ..transport.unix_sockets import UNIXROS, connect_unix, unix_address
 from ..xmlrpc.http import checked_address
 from ..xmlrpc.rpc_client import call
@@ -67,6 +67,8 @@ class Subscription:
         self._tasks: dict[str, asyncio.Task[None]] = {}
         """Publisher's URI → task that maintains its link."""
         self._links: dict[str, FrameProtocol | LocalPublisher] = {}
+        self.selector: SocketSelector = node.loop.selector
+        """Selector through which messages of other processes are read."""
         self._unreachable: set[str] = set()
 
     @property
@@ -247,7 +249,7 @@ class Subscription:
 
     async def _open(self, host: str, port: int, socket_name: str | None) -> SubscriberLink:
         loop = asyncio.get_running_loop()
-        link = SubscriberLink(self, self._request(), self._node.loop.selector, self._codec)
+        link = SubscriberLink(self, self._request(), self._codec)
         if socket_name is not None:
             with contextlib.suppress(OSError):  # the socket is gone or not accessible
                 await loop.create_unix_connection(lambda: link, sock=await connect_unix(loop, socket_name))

@@ -17,13 +17,13 @@ class FastSelector(selectors.DefaultSelector):
 
     def __init__(self) -> None:
         super().__init__()
-        self._readers: dict[int, Callable[[], None]] = {}
+        self._readers: dict[int, Callable[[], object]] = {}
         """Readers by file descriptor."""
         has_epoll = hasattr(select, "epoll")
         self._epoll = select.epoll.fromfd(os.dup(self.fileno())) if has_epoll else None
         """Duplicate of the selector's epoll, polled directly: the lookup of keys takes as long as reading a message."""
 
-    def add_reader(self, sock: socket.socket, readable: Callable[[], None]) -> None:
+    def add_reader(self, sock: socket.socket, readable: Callable[[], object]) -> None:
         """Call `readable` on the loop whenever the socket is readable or closed, until `remove_reader`."""
         self.register(sock, selectors.EVENT_READ)
         self._readers[sock.fileno()] = readable

@@ -44,7 +44,8 @@ class FrameDecoder:
         """Longest frame accepted [bytes]; may change between two frames."""
         self.on_note: Callable[[bytes], bytes | None] | None = None
         """Called with each note, if notes are accepted; returns the content of the frame it announces, if any."""
-        self._shared = _shared_buffer()
+        self._shared: memoryview
+        """Buffer of the reading thread."""
         self._rest = b""
         """Received part of a short frame."""
         self._long_frame: memoryview | None = None
@@ -60,6 +61,7 @@ class FrameDecoder:
             self._filled, self._rest = len(self._rest), b""
         if self._long_frame is not None:
             return self._long_frame[self._filled :]
+        self._shared = _shared_buffer()
         self._shared[: len(self._rest)] = self._rest
         return self._shared[len(self._rest) :]
 

@@ -3,11 +3,10 @@
 import asyncio
 import contextlib
 import socket
-from collections.abc import Iterable, Mapping
-from typing import cast
+from collections.abc import Callable, Iterable, Mapping
+from typing import Protocol, cast
 
 from ..errors import WireError
-from .fast_selector import FastSelector
 from .framing import FrameDecoder
 from .headers import MAX_HEADER_BYTES, MAX_MESSAGE_BYTES, decode_header, encode_header
 from .send_queue import SendQueue
@@ -15,6 +14,16 @@ from .unix_sockets import UNIXROS
 
 HANDSHAKE_S = 15.0
 """Timeout for the peer's header."""
+
+
+class SocketSelector(Protocol):
+    """Selector that calls the readers of sockets, in its thread."""
+
+    def add_reader(self, sock: socket.socket, readable: Callable[[], object], /) -> None:
+        """Call `readable` whenever the socket is readable or closed, until `remove_reader`."""
+
+    def remove_reader(self, sock: socket.socket, /) -> None:
+        """Stop calling the socket's reader, which does not run any more."""
 
 
 class FrameProtocol(asyncio.BufferedProtocol):
@@ -32,10 +41,9 @@ class FrameProtocol(asyncio.BufferedProtocol):
         self.bytes_received = 0
         self.frames = FrameDecoder(MAX_HEADER_BYTES)
         self._deadline: asyncio.TimerHandle | None = None
-        self._selector: FastSelector | None = None
+        self._selector: SocketSelector | None = None
         self._socket: socket.socket | None = None
         """Duplicate of the socket, read directly instead of through asyncio."""
-        self._is_paused = False
         self._close_reason: str | None = None
 
     # for subclasses to override
@@ -102,15 +110,22 @@ class FrameProtocol(asyncio.BufferedProtocol):
 
     # bypassing asyncio
 
-    def use_fast_selector(self, selector: FastSelector) -> None:
-        """Read through the loop's selector from now on, which is faster than asyncio's transport."""
-        if self._socket is not None or self.transport is None:
+    def read_through(self, selector: SocketSelector) -> None:
+        """Read through a selector from now on, in its thread and faster than by asyncio's transport."""
+        if selector is self._selector or self.transport is None:
             return
         with contextlib.suppress(OSError):  # out of file descriptors: asyncio goes on reading
-            duplicate: socket.socket = self.transport.get_extra_info("socket").dup()
-            selector.add_reader(duplicate, self._readable)
+            sock: socket.socket = self._socket or self.transport.get_extra_info("socket").dup()
+            self._stop_reading()
             self.transport.pause_reading()
-            self._selector, self._socket = selector, duplicate
+            self._selector, self._socket = selector, sock
+            selector.add_reader(sock, self._readable)
+
+    def _stop_reading(self) -> None:
+        """Leave the selector; in its thread or on the loop."""
+        selector, self._selector = self._selector, None
+        if selector is not None and self._socket is not None:
+            selector.remove_reader(self._socket)
 
     def _readable(self) -> None:
         assert self._socket is not None
@@ -152,18 +167,6 @@ class FrameProtocol(asyncio.BufferedProtocol):
             self._end(reason)
             transport.close()
 
-    def pause(self) -> None:
-        """Stop reading until `resume`; the peer's messages wait in its queue."""
-        if self._selector is not None and self._socket is not None and not self._is_paused:
-            self._selector.remove_reader(self._socket)
-            self._is_paused = True
-
-    def resume(self) -> None:
-        """Read again."""
-        if self._is_paused and self._selector is not None and self._socket is not None and self.transport is not None:
-            self._selector.add_reader(self._socket, self._readable)
-            self._is_paused = False
-
     def set_nodelay(self) -> None:
         """Set TCP_NODELAY: small messages are sent at once."""
         if self.transport is not None and not self.out.is_local:
@@ -199,7 +202,7 @@ class FrameProtocol(asyncio.BufferedProtocol):
     def _end(self, reason: str) -> None:
         if self.transport is None:
             return
-        self.pause()
+        self._stop_reading()
         self.transport = None
         self.out.close()
         if self._socket is not None:

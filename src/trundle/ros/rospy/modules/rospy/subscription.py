@@ -1,17 +1,17 @@
 """Subscribed topic: its subscription on the graph, shared by all `rospy.Subscriber` of the topic.
 
-A thread of the topic deserializes the messages and calls the callbacks, so that slow callbacks of one topic do not
-delay those of others, and messages that are dropped cost nothing.
+A thread of the topic reads its sockets, deserializes the messages and calls the callbacks: a message wakes one thread,
+slow callbacks of one topic do not delay those of others, and messages that are dropped cost nothing.
 """
 
 import logging
 import threading
+import time
 import traceback
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from itertools import repeat
-from queue import SimpleQueue
 from typing import Any, Protocol
 
 from trundle.ros import _message_codec
@@ -21,7 +21,8 @@ from trundle.ros.node.loop import SLICE_NS
 from trundle.ros.node.publisher import Publisher as GraphPublisher
 from trundle.ros.node.subscription import Subscription as GraphSubscription
 from trundle.ros.rospy.message_methods import codec, has_only_bytes, is_plain
-from trundle.ros.transport.tcpros import FrameProtocol
+from trundle.ros.transport.tcpros import FrameProtocol, SocketSelector
+from trundle.ros.transport.thread_selector import ThreadSelector
 
 from . import core, graph
 from .exceptions import ROSException
@@ -31,6 +32,12 @@ _FRAME = 4
 """Bytes of a message's length on the wire."""
 _MAX_WAITING_BYTES = 256 * 1024 * 1024
 """Limit of messages queued here for slow callbacks; others wait at their publishers, as the original's do."""
+_READ_S = 0.001
+"""Interval of reading while messages wait."""
+_MAX_READS = 100
+"""Limit of readings before the next callback."""
+_SLOW_S = 0.1
+"""Duration of callbacks after which the loop reads: sockets hold the messages of a shorter time."""
 _Callback = tuple[Callable[..., object], Any]
 
 
@@ -80,15 +87,17 @@ class Subscription:
         self.ref_count = 0
         self.closed = False
         self._lock = threading.RLock()
-        self._waiting: deque[tuple[_Data, Mapping[str, str]] | None] = deque()
-        """Messages for the topic's thread, with their connection headers; None ends the thread."""
-        self._is_idle = False
-        """True while the topic's thread waits for `_wake`."""
-        self._wake: SimpleQueue[None] = SimpleQueue()
-        self._received_bytes = self._read_bytes = 0
-        """Total sizes of messages without dropped ones; written by the loop, and by the topic's thread."""
-        self._is_held = False
-        """True if publishers wait."""
+        self._waiting: deque[tuple[_Data, Mapping[str, str]]] = deque()
+        """Messages for the callbacks, with their connection headers."""
+        self._waiting_bytes = 0
+        self._queue_lock = threading.Lock()
+        """Guards both: messages of this process come from the loop."""
+        self._read_s = time.monotonic()
+        """Time of the last reading."""
+        self.is_read_by_loop = False
+        """True while callbacks are slow: sockets hold few messages."""
+        self.selector: ThreadSelector
+        """Selector of the topic's thread; set by `start`."""
         self._latched: dict[str, Any] = {}
         """Publisher → its latched message, for callbacks added later."""
         self._subscription: ByteSubscription | None = None
@@ -96,6 +105,7 @@ class Subscription:
 
     def start(self, node: Node) -> None:
         """Subscribe."""
+        self.selector = ThreadSelector()
         self._thread = threading.Thread(target=self._run, name=f"rospy {self.resolved_name}", daemon=True)
         self._thread.start()
         self._subscription = ByteSubscription(node, self)
@@ -163,63 +173,61 @@ class Subscription:
         raise KeyError("no matching cb")
 
     def receive(self, messages: Sequence[_Data], header: Mapping[str, str]) -> None:
-        """Queue messages for the topic's thread; on the loop."""
-        if (size := self.queue_size) is not None:
-            messages = messages[-size:]
-            while len(self._waiting) + len(messages) > size and self._drop_oldest():
-                pass
-        self._received_bytes += sum(map(len, messages))
-        self._put(*zip(messages, repeat(header)))
-        if self._received_bytes - self._read_bytes > _MAX_WAITING_BYTES and self._subscription is not None:
-            self._subscription.pause()
-            self._is_held = True
-            self._release()  # all may have been read meanwhile
-
-    def _put(self, *entries: tuple[_Data, Mapping[str, str]] | None) -> None:
-        """Queue entries, and wake the topic's thread; on the loop, except for None, which ends the thread."""
-        self._waiting.extend(entries)
-        if self._is_idle:
-            self._is_idle = False
-            self._wake.put(None)
+        """Queue messages for the callbacks; on the topic's thread or the loop."""
+        with self._queue_lock:
+            if (size := self.queue_size) is not None:
+                messages = messages[-size:]
+                while self._waiting and len(self._waiting) + len(messages) > size:
+                    self._waiting_bytes -= len(self._waiting.popleft()[0])
+            self._waiting.extend(zip(messages, repeat(header)))
+            self._waiting_bytes += sum(map(len, messages))
+        self.selector.wake()
+        if self.is_read_by_loop and self._waiting_bytes > _MAX_WAITING_BYTES:
+            self._leave_to_loop(False)
 
     def _next(self) -> tuple[_Data, Mapping[str, str]] | None:
-        """Wait for the next entry; in the topic's thread."""
-        while not self._waiting:
-            self._is_idle = True
-            if self._waiting:  # queued before the loop saw the thread idle
-                self._is_idle = False
-            else:
-                self._wake.get()
-        return self._waiting.popleft()
+        """Read the sockets and return the next message with its header; None at the end."""
+        while not self.closed:
+            self._read()
+            with self._queue_lock:
+                if self._waiting:
+                    message = self._waiting.popleft()
+                    self._waiting_bytes -= len(message[0])
+                    return message
+        return None
 
-    def _release(self) -> None:
-        """Resume publishers once half has been read; on the loop or the topic's thread."""
-        if self._is_held and self._received_bytes - self._read_bytes <= _MAX_WAITING_BYTES // 2:
-            self._is_held = False
-            assert self._subscription is not None
-            self._subscription.resume()
+    def _read(self) -> None:
+        """Read what the sockets hold, unless that was a moment ago; wait for it if no message waits."""
+        took_s = time.monotonic() - self._read_s
+        if self._waiting and took_s < _READ_S:
+            return
+        has_room = self._waiting_bytes <= _MAX_WAITING_BYTES
+        self._leave_to_loop(took_s > _SLOW_S and has_room)
+        if has_room:
+            self.selector.is_waiting = True  # from now on, messages of the loop and the end wake this thread
+            timeout = 0.0 if self._waiting or self.closed else None
+            for _ in range(_MAX_READS if self.queue_size is not None and took_s > _READ_S else 1):  # to the newest
+                if not self.selector.read(timeout):
+                    break
+                timeout = 0.0
+        self._read_s = time.monotonic()
+
+    def _leave_to_loop(self, is_left: bool) -> None:
+        """Have the loop read the sockets, or the topic's thread again; on either."""
+        if is_left != self.is_read_by_loop and self._subscription is not None:
+            self.is_read_by_loop = is_left
+            self._subscription.select_soon()
 
     def close(self) -> None:
         """Unsubscribe."""
         self.closed = True
         self.callbacks = []
         graph.forget_starter(self.start)
-        self._put(None)
         if self._subscription is not None:
+            self.selector.wake()
             self._subscription.unregister()
             if not core.is_shutdown():
                 graph.wait_registered()
-
-    def _drop_oldest(self) -> bool:
-        try:
-            oldest = self._waiting.popleft()
-        except IndexError:
-            return False
-        if oldest is None:
-            self._waiting.append(None)
-            return False
-        self._received_bytes -= len(oldest[0])
-        return True
 
     def _run(self) -> None:
         _message_codec.request_time_slice(SLICE_NS)  # a message would wait for busy threads here, too
@@ -227,9 +235,6 @@ class Subscription:
         statistics = self._open_statistics()
         while (entry := self._next()) is not None:
             data, header = entry
-            self._read_bytes += len(data)
-            if self._is_held:
-                self._release()
             try:
                 message = data.message if isinstance(data, _ReadMessage) else read(data)
             except Exception as error:
@@ -246,6 +251,7 @@ class Subscription:
                 self._call(message, callback, arguments)
         if statistics is not None:
             statistics.shutdown()
+        self.selector.close()
 
     def _latch(self, publisher: str, message: Any) -> list[_Callback]:
         """Keep a message for callbacks added later; return the current ones."""
@@ -299,6 +305,7 @@ class ByteSubscription(GraphSubscription):
             unregister=node.endpoints.remove_subscription,
         )
         self.is_raw = True
+        self.selector: SocketSelector = subscription.selector
         self._subscription = subscription
         self._read = subscription.reader if has_only_bytes(subscription.data_class) else None
         self._local_header: tuple[LocalPublisher, dict[str, str]] | None = None
@@ -307,20 +314,16 @@ class ByteSubscription(GraphSubscription):
     def md5sum(self) -> str:
         return self._subscription.md5sum
 
-    def pause(self) -> None:
-        """Pause publishers of other processes; on the loop."""
+    def select_soon(self) -> None:
+        """Have the sockets read by the topic's thread, or by the loop; thread-safe."""
+        self._node.loop.call_soon(self._select)
+
+    def _select(self) -> None:
+        is_read_by_loop = self._subscription.is_read_by_loop
+        self.selector = self._node.loop.selector if is_read_by_loop else self._subscription.selector
         for link in self._links.values():
             if isinstance(link, FrameProtocol):
-                link.pause()
-
-    def resume(self) -> None:
-        """Resume them; thread-safe."""
-        self._node.loop.call_soon(self._resume)
-
-    def _resume(self) -> None:
-        for link in self._links.values():
-            if isinstance(link, FrameProtocol):
-                link.resume()
+                link.read_through(self.selector)
 
     def receive_data(self, data: bytes | memoryview, header: Mapping[str, str], *, from_outside: bool = True) -> None:
         del from_outside
