@@ -85,9 +85,7 @@ _CARD = """<div markdown>
 
 {about}
 
-```bash
-{command}
-```
+`{command}`
 </div>
 """
 
@@ -111,7 +109,9 @@ def page() -> str:
 def _shown(name: str, about: str) -> str:
     file = f"pictures/gallery_{name}"
     if name in FILMS:
-        return f'<video src="{file}.mp4" poster="{file}.png" autoplay loop muted playsinline width="100%"></video>'
+        return (
+            f'<p><video src="{file}.mp4" poster="{file}.png" autoplay loop muted playsinline width="100%"></video></p>'
+        )
     return f"![{about}]({file}.png)"
 
 
