@@ -56,7 +56,10 @@ def test_references_have_generated_content(site: Path) -> None:
     assert "libgazebo_ros_diff_drive.so" in page("plugins")
     assert "topic_tools/throttle" in page("nodes")
     assert "trundle topic echo" in page("cli")
-    assert re.search(r"mu2.*robots/description/sdf/surface\.py", page("sdf"))
+    assert re.search(r"friction/ode/mu2</code>.*>read</td>", page("sdf"))
+    assert "joint_state_controller/JointStateController" in page("controllers")
+    assert "launch-prefix" in page("roslaunch")
+    assert "xacro:insert_block" in page("xacro")
     assert "leaves no freedom; rigid" in page("diagnostics")
     assert 'id="trundle.Simulation.run"' in page("python")
 

@@ -5,7 +5,7 @@ import re
 
 from trundle.app.cli.main import COMMANDS, make_parser
 
-from .markdown import cell, code
+from .markdown import code, html, table
 
 _INTRO = """# Command line
 
@@ -62,15 +62,15 @@ def _examples(text: str) -> str:
 
 def _arguments(parser: argparse.ArgumentParser) -> str:
     rows = [
-        f"| {_spelling(action)} | {_help(parser, action)} |"
+        (_spelling(action), _help(parser, action))
         for action in parser._actions
         if action.help != argparse.SUPPRESS and not isinstance(action, argparse._HelpAction)
     ]
-    return "\n".join(["| argument | meaning |", "|---|---|", *rows]) if rows else ""
+    return table(("argument", "meaning"), rows) if rows else ""
 
 
 def _spelling(action: argparse.Action) -> str:
-    choices = "{" + ",".join(map(str, action.choices)) + "}" if action.choices else None
+    choices = "{" + ", ".join(map(str, action.choices)) + "}" if action.choices else None
     value = action.metavar or choices or (action.dest.upper() if action.option_strings else action.dest)
     value = " ".join(value) if isinstance(value, tuple) else value
     takes_value = action.nargs != 0
@@ -80,4 +80,4 @@ def _spelling(action: argparse.Action) -> str:
 
 def _help(parser: argparse.ArgumentParser, action: argparse.Action) -> str:
     text = (action.help or "") % {"prog": parser.prog, "default": action.default} if action.help else ""
-    return cell(text)
+    return html(text)

@@ -11,23 +11,28 @@ from mkdocs.structure.files import File, Files
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "docs"))  # MkDocs loads this file by its path
 
-from generate import api, catalogs, command_line, diagnostics, elements, gallery, pictures  # noqa: E402
+from generate import api, catalogs, command_line, diagnostics, elements, gallery, pictures, tags  # noqa: E402
 
 PAGES: dict[str, Callable[[], str]] = {
     "decisions/index.md": lambda: _decisions(),
     "gallery.md": gallery.page,
     "reference/cli.md": command_line.page,
+    "reference/controllers.md": catalogs.controllers_page,
     "reference/diagnostics.md": diagnostics.page,
     "reference/nodes.md": catalogs.nodes_page,
     "reference/plugins.md": catalogs.plugins_page,
     "reference/python.md": api.page,
+    "reference/roslaunch.md": tags.roslaunch_page,
     "reference/sdf.md": lambda: elements.page("sdf"),
     "reference/urdf.md": lambda: elements.page("urdf"),
+    "reference/xacro.md": tags.xacro_page,
 }
 """Generated pages, without a file below docs/."""
 LESSONS = ROOT / "src/trundle/assets/lessons"
 """Lessons of the page, which are also tutorials here."""
 _CHECKS = re.compile(r"^```(check|look)\n.*?^```\n\n?", re.MULTILINE | re.DOTALL)
+_NAME = re.compile(r"<code>([^\s<]{1,40})</code>")
+_TABLE = re.compile(r"<table>(.*?)</table>", re.DOTALL)
 ROOT_PAGES = ("ARCHITECTURE.md", "CONTRIBUTING.md", "RELEASING.md", "SECURITY.md")
 """Files next to docs/ that are also pages."""
 
@@ -52,6 +57,21 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
 def on_page_markdown(markdown: str, **_: object) -> str:
     """Change links to the examples, which are next to docs/, to their copies in the site."""
     return re.sub(r"\]\(\.\./((?:\.\./)*examples/)", r"](\1", markdown)
+
+
+def on_page_content(html: str, **_: object) -> str:
+    """Mark names, which a line must not break, and give the cells of tables their headings for narrow screens."""
+    return _TABLE.sub(_with_headings, _NAME.sub(r'<code class="name">\1</code>', html))
+
+
+def _with_headings(found: re.Match[str]) -> str:
+    headings = [re.sub(r"<[^>]+>", "", heading) for heading in re.findall(r"<th[^>]*>(.*?)</th>", found[1], re.DOTALL)]
+
+    def row(found_row: re.Match[str]) -> str:
+        names = iter(headings)
+        return re.sub(r"<td", lambda _: f'<td data-heading="{next(names, "")}"', found_row[0])
+
+    return f'<table class="reference">{re.sub(r"<tr>.*?</tr>", row, found[1], flags=re.DOTALL)}</table>'
 
 
 def _root_page(name: str) -> str:

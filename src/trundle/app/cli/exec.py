@@ -41,7 +41,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--debug", action="store_true", help="print where the program is searched and what runs")
     parser.add_argument("--show-translation", action="store_true", help="print how a Python 2 program is translated")
     parser.add_argument("--list", action=_List, help="the stock nodes that run without ROS")
-    parser.add_argument("package")
+    parser.add_argument("package", help="name of the package")
     parser.add_argument("executable", help="a program anywhere in the package, or a stock node")
     parser.add_argument("arguments", nargs=argparse.REMAINDER, metavar="...", help="for the node; a:=b remaps names")
 

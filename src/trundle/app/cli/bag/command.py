@@ -33,15 +33,15 @@ def configure(parser: argparse.ArgumentParser) -> None:
     _configure_record(commands.add_parser("record", help="record topics in a bag"))
     _configure_play(commands.add_parser("play", help="publish the messages of bags"))
     add = commands.add_parser("info", help="summarize bags")
-    add.add_argument("bags", nargs="+")
+    add.add_argument("bags", nargs="+", help="bag files")
     add.add_argument("-y", "--yaml", action="store_true", help="as YAML")
     add.add_argument("-k", "--key", help="only this key of the YAML")
     add.add_argument("--freq", action="store_true", help="with the median frequency of each topic")
     add.set_defaults(run=_import_on_use("info", "main"), refuse=add.error)
     _configure_check(commands.add_parser("check", help="compare the types in a bag with the known ones", **_RULES))
     add = commands.add_parser("filter", help="copy the messages for which an expression is true")
-    add.add_argument("inbag")
-    add.add_argument("outbag")
+    add.add_argument("inbag", help="bag file to read")
+    add.add_argument("outbag", help="bag file to write")
     add.add_argument("expression", help="Python expression of topic, m (the message) and t (its time)")
     add.add_argument("-p", "--print", metavar="EXPR", help="Python expression to print for each message")
     add.set_defaults(run=_import_on_use("edit", "filter_bag"))
@@ -97,7 +97,7 @@ def _configure_record(add: argparse.ArgumentParser) -> None:
 
 
 def _configure_play(add: argparse.ArgumentParser) -> None:
-    add.add_argument("bags", nargs="*", metavar="bag")
+    add.add_argument("bags", nargs="*", metavar="bag", help="bag files")
     add.add_argument("--bags", dest="more_bags", nargs="+", default=[], metavar="BAG", help="bags, after --topics")
     add.add_argument("-p", "--prefix", default="", help="prefix of every topic")
     add.add_argument("-q", "--quiet", action="store_true", help="print nothing")
@@ -123,7 +123,7 @@ def _configure_play(add: argparse.ArgumentParser) -> None:
 
 
 def _configure_check(add: argparse.ArgumentParser) -> None:
-    add.add_argument("bag")
+    add.add_argument("bag", help="bag file")
     _configure_rules(add)
     add.add_argument("-g", "--genrules", metavar="RULES", help="write the missing rules to a file, to be completed")
     add.add_argument("-a", "--append", action="store_true", help="use the rules in that file, and append to it")
@@ -131,8 +131,8 @@ def _configure_check(add: argparse.ArgumentParser) -> None:
 
 
 def _configure_fix(add: argparse.ArgumentParser) -> None:
-    add.add_argument("inbag")
-    add.add_argument("outbag")
+    add.add_argument("inbag", help="bag file to read")
+    add.add_argument("outbag", help="bag file to write")
     _configure_rules(add)
     add.add_argument("--force", action="store_true", help="apply incomplete rules: new fields stay 0")
     add.set_defaults(run=_import_on_use("fix", "main"), refuse=add.error)
@@ -144,7 +144,7 @@ def _configure_rules(add: argparse.ArgumentParser) -> None:
 
 
 def _configure_edit(add: argparse.ArgumentParser) -> None:
-    add.add_argument("bags", nargs="+", metavar="bag")
+    add.add_argument("bags", nargs="+", metavar="bag", help="bag files")
     add.add_argument("--output-dir", metavar="DIR", help="output folder (in place, keeping the old bag as .orig)")
     add.add_argument("-f", "--force", action="store_true", help="overwrite an existing .orig")
     add.add_argument("-q", "--quiet", action="store_true", help="print errors only")

@@ -29,7 +29,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add.add_argument("-n", "--nodes", action="store_true", help="with the nodes that provide them")
     add.set_defaults(run=_list)
     add = commands.add_parser("call", help="call a service and print its answer")
-    add.add_argument("service")
+    add.add_argument("service", help="name of the service")
     add.add_argument("values", nargs="*", help="request as YAML, or its fields in order, or standard input")
     add.add_argument("-v", dest="verbose", action="store_true", help="also print the request")
     add.add_argument("--wait", action="store_true", help="wait for the service")
@@ -42,10 +42,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
         ("args", _args, "names of a service's arguments"),
     ):
         add = commands.add_parser(name, help=help_)
-        add.add_argument("service")
+        add.add_argument("service", help="name of the service")
         add.set_defaults(run=run, failure=2 if name == "args" else 1)
     add = commands.add_parser("find", help="services of a type")
-    add.add_argument("type")
+    add.add_argument("type", help="type, as std_srvs/Empty")
     add.set_defaults(run=_find)
 
 
