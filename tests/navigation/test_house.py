@@ -24,6 +24,13 @@ HECTOR = """
     <param name="map_size" value="512"/>
   </node>
 """
+KARTO = """
+  <node pkg="slam_karto" type="slam_karto" name="slam_karto">
+    <param name="base_frame" value="base_footprint"/>
+  </node>
+"""
+OWN = {"hector": HECTOR, "karto": KARTO}
+"""Nodes that the house has no launch file for."""
 LAUNCH = """
 <launch>
   <include file="$(find house_nav)/launch/sim.launch"/>
@@ -38,7 +45,7 @@ def drive(house: Path, folder: Path, nodes: str, *, name: str, arguments: str = 
     """Drive in circles for 30 s, or rest for 5 s, flat out; returns the bag."""
     file, bag = folder / f"{name}.launch", folder / f"{name}.bag"
     included = f'<include file="$(find house_nav)/launch/{nodes}.launch">{arguments}</include>'
-    file.write_text(LAUNCH.format(nodes=HECTOR if nodes == "hector" else included, is_driven=is_driven))
+    file.write_text(LAUNCH.format(nodes=OWN.get(nodes, included), is_driven=is_driven))
     command = [sys.executable, "-m", "trundle", "launch", "--port", "0", str(file), "--headless"]
     options = ["--speed", "max", "--duration", "30" if is_driven else "5", "--record", str(bag)]
     env = {**os.environ, "ROS_PACKAGE_PATH": str(house)}
@@ -87,7 +94,7 @@ def test_amcl_finds_a_driving_robot_from_a_wrong_guess(house: Path, tmp_path: Pa
     assert np.median(errors) < 0.06
 
 
-@pytest.mark.parametrize("nodes", ["amcl", "gmapping", "hector"])
+@pytest.mark.parametrize("nodes", ["amcl", "gmapping", "hector", "karto"])
 def test_recordings_are_the_same_in_every_run(house: Path, tmp_path: Path, nodes: str) -> None:
     """Random numbers have a seed, and time waits for the nodes. The robot rests: rostopic pub has no simulated time."""
     bags = [drive(house, tmp_path, nodes, name=f"{nodes}{number}", is_driven=False) for number in (1, 2)]
@@ -96,14 +103,16 @@ def test_recordings_are_the_same_in_every_run(house: Path, tmp_path: Path, nodes
     assert bags[0].read_bytes() == bags[1].read_bytes()
 
 
-def test_gmapping_maps_the_room_around_a_driving_robot(house: Path, tmp_path: Path) -> None:
-    bag = drive(house, tmp_path, "gmapping", name="gmapping")
+@pytest.mark.parametrize("nodes", ["gmapping", "karto"])
+def test_the_room_around_a_driving_robot_is_mapped(house: Path, tmp_path: Path, nodes: str) -> None:
+    bag = drive(house, tmp_path, nodes, name=nodes)
 
     last = read(bag, "/map")[-1]
     cells = np.array(last.data, dtype=np.int8).reshape(last.info.height, last.info.width)
     # The map's frame has its origin in the start (-2.0, -0.8); the plan's walls lie in the same cells.
     rows, columns = np.nonzero(cells == 100)
-    found = np.stack([columns, rows], axis=1) * 0.05 + 0.025 - 100.0 + np.array([-2.0, -0.8])
+    corner = np.array([last.info.origin.position.x, last.info.origin.position.y])
+    found = np.stack([columns, rows], axis=1) * 0.05 + 0.025 + corner + np.array([-2.0, -0.8])
     plan = _occupied(house / "maps/house.yaml")
     near = np.array([np.abs(plan - place).max(axis=1).min() < 0.051 for place in found])
     assert len(found) > 200

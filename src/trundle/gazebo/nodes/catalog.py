@@ -69,6 +69,7 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ): "trundle.gazebo.nodes.pointcloud_to_laserscan:PointCloudToLaserScan",
     ("rf2o_laser_odometry", "rf2o_laser_odometry_node"): "trundle.navigation.scan_odometry:Rf2oLaserOdometry",
     ("robot_localization", "ekf_localization_node"): "trundle.gazebo.nodes.robot_localization:EkfLocalization",
+    ("robot_localization", "navsat_transform_node"): "trundle.gazebo.nodes.robot_localization:NavsatTransform",
     ("robot_localization", "ukf_localization_node"): "trundle.gazebo.nodes.robot_localization:UkfLocalization",
     ("robot_pose_ekf", "robot_pose_ekf"): "trundle.gazebo.nodes.robot_pose_ekf:RobotPoseEkf",
     ("robot_pose_publisher", "robot_pose_publisher"): "trundle.gazebo.nodes.robot_pose_publisher:RobotPosePublisher",

@@ -12,6 +12,7 @@ from trundle.base.diagnostics import UsageError
 from trundle.gazebo.nodes.map_server.occupancy_grid import OccupancyGrid, write_map
 from trundle.gazebo.nodes.private_parameters import private_parameters
 from trundle.robots.parameters import ParamError
+from trundle.ros import ServiceError
 
 from ..pose_messages import PlanarPose, from_planar, planar, pose_fields, read_pose
 from . import _mapping
@@ -136,7 +137,7 @@ class SlamToolbox(GraphMappingNode[SlamToolboxSettings]):
         async with self._access:
             is_drawn = await self._map.draw(self._node.clock.now_ns())
         if not is_drawn or self._map.message is None:
-            raise UsageError("there is no map yet")
+            raise ServiceError("there is no map yet")
         info, data = self._map.message["info"], self._map.message["data"]
         position = info["origin"]["position"]
         grid = OccupancyGrid(
@@ -144,15 +145,21 @@ class SlamToolbox(GraphMappingNode[SlamToolboxSettings]):
             resolution_m=info["resolution"],
             origin=(position["x"], position["y"], 0.0),
         )
-        await asyncio.to_thread(write_map, name, grid, occupied=_OCCUPIED, free=_FREE)
+        try:
+            await asyncio.to_thread(write_map, name, grid, occupied=_OCCUPIED, free=_FREE)
+        except (UsageError, ValueError) as error:
+            raise ServiceError(str(error)) from None
         self._node.log.info(f"the map is saved as {name}.pgm and {name}.yaml")
         return {}
 
     async def _on_serialize(self, request: Any) -> dict[str, Any]:
         async with self._access:
             if not len(self._slam.poses()):
-                raise UsageError("there is no graph yet")
-            path = await asyncio.to_thread(write_graph, Path(request.filename), self._slam)
+                raise ServiceError("there is no graph yet")
+            try:
+                path = await asyncio.to_thread(write_graph, Path(request.filename), self._slam)
+            except (UsageError, ValueError) as error:
+                raise ServiceError(str(error)) from None
         self._node.log.info(f"the graph is saved as {path}")
         return {}
 
@@ -160,7 +167,7 @@ class SlamToolbox(GraphMappingNode[SlamToolboxSettings]):
         pose = request.initial_pose
         start = None if request.match_type == _AT_FIRST_NODE else (pose.x, pose.y, pose.theta)
         if not await self._load(request.filename, start):
-            raise UsageError(f"{request.filename} is not loaded; the log says why")
+            raise ServiceError(f"{request.filename} is not loaded; the log says why")
         return {}
 
     async def _load(self, name: str, start: PlanarPose | None) -> bool:
