@@ -3,6 +3,7 @@
 import math
 from typing import Any
 
+import numpy as np
 import pytest
 
 from trundle.ros import StaticTransformBroadcaster, Transform
@@ -53,6 +54,27 @@ def test_a_scan_waits_for_the_transform_of_the_message_filter(graph: Any) -> Non
 
     graph.until(lambda: filtered)
     assert math.isnan(filtered[0].ranges[1])
+
+
+def test_a_filtered_scan_becomes_a_cloud_in_another_frame(graph: Any) -> None:
+    """The laser is 0.5 m before the robot's center; a range of infinity and one beyond 5 m are left out."""
+    chain = [{"name": "range", "type": "laser_filters/LaserScanRangeFilter", "params": {"upper_threshold": 5.0}}]
+    clouds = graph.listen("/cloud_filtered", "sensor_msgs/PointCloud2")
+    graph.start("laser_filters/scan_to_cloud_filter_chain", scan_filter_chain=chain)
+    StaticTransformBroadcaster(graph.client).send_transform(
+        Transform(parent="base_link", child="laser", translation=(0.5, 0.0, 0.2))
+    )
+    scans = graph.advertise("/scan", "sensor_msgs/LaserScan")
+    graph.until(lambda: graph.linked("/cloud_filtered"))
+    scans.publish({**scan([math.nan, 6.0, 2.0, math.inf, 1.0]), "intensities": [1.0, 2.0, 3.0, 4.0, 5.0]})
+
+    graph.until(lambda: clouds)
+    cloud = clouds[0]
+    assert (cloud.header.frame_id, cloud.width, cloud.point_step) == ("base_link", 2, 20)
+    assert [field.name for field in cloud.fields] == ["x", "y", "z", "intensity", "index"]
+    numbers = np.frombuffer(bytes(cloud.data), dtype="<f4,<f4,<f4,<f4,<i4").tolist()
+    assert numbers[0] == pytest.approx((2.5, 0.0, 0.2, 3.0, 2), abs=1e-5)
+    assert numbers[1] == pytest.approx((0.5, 1.0, 0.2, 5.0, 4), abs=1e-5)
 
 
 def test_two_lasers_become_one_scan(graph: Any) -> None:

@@ -57,6 +57,7 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
         "joint_state_publisher_gui",
     ): "trundle.gazebo.nodes.joint_state_publisher:JointStatePublisherGui",
     ("joy", "joy_node"): "trundle.gazebo.nodes.joy_node:JoyNode",
+    ("laser_filters", "scan_to_cloud_filter_chain"): "trundle.navigation.scan_filters:ScanToCloudFilterChain",
     ("laser_filters", "scan_to_scan_filter_chain"): "trundle.navigation.scan_filters:ScanToScanFilterChain",
     ("laser_scan_matcher", "laser_scan_matcher_node"): "trundle.navigation.scan_odometry:LaserScanMatcher",
     ("map_server", "map_saver"): "trundle.gazebo.nodes.map_server:MapSaver",

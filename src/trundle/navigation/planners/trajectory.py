@@ -219,7 +219,8 @@ class TrajectoryPlannerROS(Follower):
         low_turn = max(settings.min_vel_theta, now_turn - settings.acc_lim_theta * time_s)
         speeds = axis_samples(low_x, max(high_x, low_x), settings.vx_samples)
         turns = np.append(axis_samples(low_turn, max(high_turn, low_turn), settings.vtheta_samples), 0.0)
-        forward = np.array([(x, 0.0, turn) for x in speeds for turn in turns])
+        # The fastest first: many end in one cell, and cost the same.
+        forward = np.array([(x, 0.0, turn) for x in speeds[::-1] for turn in turns])
         least = settings.min_in_place_vel_theta
         spots = np.where(turns > 0.0, np.maximum(turns, least), np.minimum(turns, -least))
         in_place = np.array([(0.0, 0.0, turn) for turn in spots])

@@ -1,2 +1,3 @@
 from .multi_merger import LaserscanMultiMerger as LaserscanMultiMerger
+from .scan_to_cloud_filter_chain import ScanToCloudFilterChain as ScanToCloudFilterChain
 from .scan_to_scan_filter_chain import ScanToScanFilterChain as ScanToScanFilterChain
