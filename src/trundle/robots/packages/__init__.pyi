@@ -22,4 +22,4 @@ from .ros_packages import fetched_folder as fetched_folder
 from .rule_exports import exported_rules as exported_rules
 from .shipped_files import PLANS as PLANS, ShippedFile as ShippedFile, shipped_files as shipped_files
 from .stock import STOCK as STOCK, STOCK_WITH_FILES as STOCK_WITH_FILES
-from .workspace import program_folders as program_folders
+from .workspace import build_prefixes as build_prefixes, program_folders as program_folders

@@ -83,14 +83,19 @@ def program_folders(package: str, folder: Path, environment: Mapping[str, str]) 
         folder: package folder, in a source space or below a prefix's share.
         environment: environment with CMAKE_PREFIX_PATH.
     """
+    folders = (prefix / "lib" / package for prefix in build_prefixes(package, folder, environment))
+    return [path for path in dict.fromkeys(folders) if os.path.isdir(path)]
+
+
+def build_prefixes(package: str, folder: Path, environment: Mapping[str, str]) -> list[Path]:
+    """Return the prefixes in which catkin and colcon place what a package builds; see `program_folders`."""
     prefixes = [Path(entry) for entry in environment.get("CMAKE_PREFIX_PATH", "").split(os.pathsep) if entry]
     if folder.parent.name == "share":
         prefixes.append(folder.parent.parent)
     sources = next((parent for parent in folder.parents if parent.name == "src"), None)
     if sources is not None:
         prefixes += [sources.parent / "devel", sources.parent / "install", sources.parent / "install" / package]
-    folders = (prefix / "lib" / package for prefix in prefixes)
-    return [path for path in dict.fromkeys(folders) if os.path.isdir(path)]
+    return prefixes
 
 
 def ancestor_folders(start: Path, *, levels: int = 4) -> list[Path]:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from trundle.robots.packages import (
     CMakeProgram,
+    build_prefixes,
     cmake_libraries,
     cmake_programs,
     compiled_fault,
@@ -65,9 +66,8 @@ def report_package(packages: Mapping[str, Path], name: str, environment: Mapping
         for file in files:
             kind = _KINDS.get(Path(file).suffix.lower()) or _script(Path(root, file))
             counts.update([kind] if kind else [])
-    prefixes = [prefix for prefix in environment.get("CMAKE_PREFIX_PATH", "").split(os.pathsep) if prefix]
     homes = program_folders(name, folder, environment)
-    shared = [home.parent for home in homes] + [Path(prefix, "lib") for prefix in prefixes]
+    shared = [prefix / "lib" for prefix in build_prefixes(name, folder, environment)]
     programs = [
         _target(program, _existing(homes, program.name), environment, is_library=False)
         for program in cmake_programs(folder)
