@@ -7,6 +7,7 @@ from .convex.background import BackgroundCutting as BackgroundCutting
 from .egl_renderer import EglRenderer as EglRenderer
 from .step.batch import Batch as Batch, WorldRow as WorldRow
 from .step.contact import Contact as Contact, Contacts as Contacts
+from .step.contact_laws import mujoco_addresses as mujoco_addresses
 from .step.contact_recorder import ContactRecorder as ContactRecorder
 from .step.dynamics import Coordinates as Coordinates, JointState as JointState
 from .step.engine import (
@@ -16,7 +17,7 @@ from .step.engine import (
 )
 from .step.engine_snapshot import EngineSnapshot as EngineSnapshot
 from .step.instability import Divergence as Divergence
-from .step.motors import MotorAxis as MotorAxis, MotorCommand as MotorCommand
+from .step.motors import MotorAxis as MotorAxis, MotorBank as MotorBank, MotorCommand as MotorCommand
 from .step.step_timer import StepTimer as StepTimer, StepTimes as StepTimes
 from .step.stepper import StepAction as StepAction, StepHooks as StepHooks
 from .step.surface_motion import (

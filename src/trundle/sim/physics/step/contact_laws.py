@@ -6,7 +6,7 @@ per model; they act within `mj_step` for every caller.
 
 import ctypes
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -40,10 +40,15 @@ def bind() -> None:
         )
         problem = f"Trundle is built for MuJoCo {built_version}, and mujoco-core {installed} is installed"
         raise TrundleError(f"{problem}; pip install mujoco-core=={built_version}")
+    _contact_laws.bind(mujoco_addresses(_contact_laws.names()))
+    _contact_laws.install()
+
+
+def mujoco_addresses(names: Iterable[str]) -> list[int]:
+    """Return the addresses of MuJoCo's functions, by name, in the library that Python has loaded."""
     pattern = _LIBRARIES.get(sys.platform, "libmujoco.so.*")
     library = ctypes.CDLL(str(next(Path(mujoco.__file__).parent.glob(pattern))))
-    _contact_laws.bind([ctypes.addressof(ctypes.c_byte.in_dll(library, name)) for name in _contact_laws.names()])
-    _contact_laws.install()
+    return [ctypes.addressof(ctypes.c_byte.in_dll(library, name)) for name in names]
 
 
 bind()

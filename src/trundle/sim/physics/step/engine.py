@@ -113,6 +113,20 @@ class Engine:
         self._laws.expect_any_speed()
         self.reader.invalidate()
 
+    @property
+    def addresses(self) -> tuple[int, int]:
+        """Addresses of MuJoCo's model and data, for laws in C++."""
+        return self._model._address, self._data._address
+
+    def state_written(self, *, moved: bool) -> None:
+        """Continue after a law in C++ has written positions or velocities.
+
+        Args:
+            moved: True if links were moved, and may penetrate something.
+        """
+        self.writer.was_teleported |= moved
+        self._state_changed()
+
     def step(self, count: int, hooks: StepHooks | None = None) -> int:
         """Advance `count` time steps, with the GIL released; return their number, smaller if an action needs Python.
 

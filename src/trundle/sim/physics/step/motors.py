@@ -27,6 +27,8 @@ _SHARED = slice(4, _STATE_WIDTH)
 _NO_MOTORS = int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
 
 
+MotorBank: TypeAlias = _contact_laws.MotorBank
+"""Motors of an engine, for laws in C++."""
 MotorAxis: TypeAlias = tuple[_contact_laws.MotorBank, int, int, int, float]
 """Axis of an engine for laws in C++: its motors, its index, addresses in qpos and qvel, and the sign of both."""
 
@@ -77,7 +79,8 @@ class Motors:
         self._data = data
         self._states = np.zeros((model.nu, _STATE_WIDTH))
         axes = (compiled.axis_dof, compiled.axis_actuator, compiled.axis_effort, compiled.axis_velocity)
-        self._bank = _contact_laws.MotorBank(model, data, np.column_stack(axes).astype(np.float64), self._states)
+        self.bank = _contact_laws.MotorBank(model, data, np.column_stack(axes).astype(np.float64), self._states)
+        """Motors for laws in C++."""
         self._signs = compiled.axis_sign
         self._addresses = compiled.axis_qpos, compiled.axis_dof
         self._rates = find_table(model, "motors")[:, 1]
@@ -92,31 +95,31 @@ class Motors:
     def axis(self, axis: int) -> MotorAxis:
         """Return an axis for laws in C++."""
         qpos, dof = (int(addresses[axis]) for addresses in self._addresses)
-        return self._bank, axis, qpos, dof, float(self._signs[axis])
+        return self.bank, axis, qpos, dof, float(self._signs[axis])
 
     def command_effort(self, axis: int, effort: float, *, hardware: bool = False) -> None:
         """Apply an effort [N·m or N], in place of the last one, to an axis within its limits; switch its motor off."""
-        self._bank.command_effort(axis, effort, hardware)
+        self.bank.command_effort(axis, effort, hardware)
 
     def command_velocity(self, axis: int, velocity: float, max_effort: float, *, hardware: bool = False) -> None:
         """Drive an axis at a speed [rad/s or m/s] with limited effort."""
-        self._bank.command_velocity(axis, velocity, max_effort, hardware)
+        self.bank.command_velocity(axis, velocity, max_effort, hardware)
 
     def drive_kinematically(self, axis: int, velocity: float, *, hardware: bool = False) -> None:
         """Drive an axis at a speed [rad/s or m/s] that it reaches at once; only its child links feel a reaction."""
-        self._bank.drive_kinematically(axis, velocity, hardware)
+        self.bank.drive_kinematically(axis, velocity, hardware)
 
     def command_position(self, axis: int, position: float, max_effort: float) -> None:
         """Drive an axis to a position [rad or m] and hold it."""
-        self._bank.command_position(axis, position, max_effort, HOLD_RATE)
+        self.bank.command_position(axis, position, max_effort, HOLD_RATE)
 
     def command_of(self, axis: int) -> MotorCommand:
         """Return an axis' current direct command."""
-        return MotorCommand(*self._bank.command_of(axis))
+        return MotorCommand(*self.bank.command_of(axis))
 
     def repeat(self, axis: int, command: MotorCommand) -> None:
         """Set an axis' command to an earlier one."""
-        self._bank.repeat(axis, (command.target, command.max_effort, command.rate, command.effort))
+        self.bank.repeat(axis, (command.target, command.max_effort, command.rate, command.effort))
 
     def write_efforts(self) -> None:
         """Write the motors' efforts to qfrc_actuator after a step."""
@@ -182,8 +185,8 @@ class Motors:
         self.invalidate()
 
     def _find_active(self) -> tuple[NDArray[np.intp], NDArray[np.int32], NDArray[np.int32]]:
-        if self._switches != self._bank.switches:
-            model, self._switches = self._model, self._bank.switches
+        if self._switches != self.bank.switches:
+            model, self._switches = self._model, self.bank.switches
             dofs = self._motor_dofs[model.tendon_frictionloss > 0.0]
             self._active = dofs, model.dof_treeid[dofs], model.jnt_qposadr[model.dof_jntid[dofs]]
         return self._active
