@@ -13,7 +13,16 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
-FOLDERS = ("cpp/*", "sdk/*/src", "sdk/*/include", "sdk/*/include/*", "tests/sim/render", "tests/cpp", "bench")
+FOLDERS = (
+    "cpp/*",
+    "sdk/*/src",
+    "sdk/*/include",
+    "sdk/*/include/*",
+    "sdk/*/include/*/*",
+    "tests/sim/render",
+    "tests/cpp",
+    "bench",
+)
 OPTIONS = ["-std=gnu++20", "-DTRUNDLE_ISA=baseline", "-Wcomma"]
 
 
@@ -74,7 +83,7 @@ def _find(name: str) -> str | None:
 
 
 def _is_cpp(file: Path) -> bool:
-    return file.suffix in (".cc", ".cpp", ".h")
+    return file.suffix in (".cc", ".cpp", ".h", ".hh")
 
 
 if __name__ == "__main__":

@@ -29,7 +29,9 @@ def test_missing_plugins_are_reported_with_lines_and_in_a_runs_words(
 
     def missing(line: int, name: str) -> str:
         where = f"looked for {name}.py in {tmp_path}; the run goes on without it"
-        return f"{file}:{line}: warning: plugin {name!r}: no lib{name}.so; Trundle runs Python plugins: {where}"
+        return (
+            f"{file}:{line}: warning: plugin {name!r}: no lib{name}.so; Trundle runs C++ of its kit and Python: {where}"
+        )
 
     assert warnings == [
         missing(2, "weather"),

@@ -49,7 +49,7 @@ def test_a_missing_plugin_error_lists_the_searched_folders(tmp_path: Path) -> No
         find_plugin(tag(tmp_path), {"GAZEBO_PLUGIN_PATH": "/opt/plugins"})
 
     message = (
-        f"{tmp_path}/model.sdf:7: error: plugin 'spin': no libspin.so; Trundle runs Python plugins: "
+        f"{tmp_path}/model.sdf:7: error: plugin 'spin': no libspin.so; Trundle runs C++ of its kit and Python: "
         f"looked for spin.py in {tmp_path}, /opt/plugins"
     )
     assert str(error.value).startswith(message)

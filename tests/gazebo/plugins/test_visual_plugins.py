@@ -45,7 +45,7 @@ def test_missing_misplaced_and_cosmetic_visual_plugins_are_reported(tmp_path: Pa
     assert [(finding.severity, finding.what) for finding in sim.report.findings] == [
         (
             "warning",
-            f"plugin 'p': no libx.so; Trundle runs Python plugins: looked for x.py in {tmp_path}; "
+            f"plugin 'p': no libx.so; Trundle runs C++ of its kit and Python: looked for x.py in {tmp_path}; "
             "the run goes on without it",
         ),
         ("info", "plugin 'p': libBlinkVisualPlugin.so alters only how Gazebo draws a visual; it is not run"),

@@ -77,10 +77,16 @@ def test_an_archive_becomes_a_model_and_replaces_an_earlier_upload(page: PageSer
 
 def test_uploaded_code_is_held(page: PageServer) -> None:
     """A held file is not loaded as a plugin until the user consents."""
-    files = {"coded/model.sdf": b"<sdf/>", "coded/code.py": b"", "coded/scripts/more.PY": b""}
+    files = {
+        "coded/model.sdf": b"<sdf/>",
+        "coded/code.py": b"",
+        "coded/scripts/more.PY": b"",
+        "coded/build/libcode.so": b"",
+    }
     assert post(page.url, files)[0] == 200
     folder = _uploads(page) / "coded"
-    assert {file.name for file in folder.rglob("*.*")} == {"model.config", "model.sdf", "code.py.held", "more.PY.held"}
+    held = {"code.py.held", "more.PY.held", "libcode.so.held"}
+    assert {file.name for file in folder.rglob("*.*")} == {"model.config", "model.sdf", *held}
 
 
 def test_a_single_file_is_a_model(page: PageServer) -> None:

@@ -83,4 +83,11 @@ class TransformListener : public Transformer {
   std::string prefix_;
 };
 
+/** Parameter tf_prefix of a namespace, or of the nearest one above that has it; "" if none has. */
+inline std::string getPrefixParam(ros::NodeHandle& nh) {
+  std::string key, prefix;
+  if (nh.searchParam("tf_prefix", key)) nh.getParam(key, prefix);
+  return prefix;
+}
+
 }  // namespace tf

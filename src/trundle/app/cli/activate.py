@@ -23,9 +23,12 @@ def main(args: argparse.Namespace) -> int:
         print('eval "$(trundle activate)" makes the commands available in this shell')
         return 0
     from trundle.ros.rospy.environment import SITE, python_libraries
+    from trundle.ros.sdk import GAZEBO_CMAKE
     from trundle.ros.shell import write_activation
 
-    folder = write_activation(ORIGINALS, functions=FUNCTIONS, python_path=SITE, libraries=python_libraries())
+    folder = write_activation(
+        ORIGINALS, functions=FUNCTIONS, python_path=SITE, libraries=python_libraries(), gazebo=GAZEBO_CMAKE
+    )
     if args.shell == "fish":
         print(f"source {shlex.quote(str(folder / 'activate.fish'))}")
         return 0

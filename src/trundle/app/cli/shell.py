@@ -23,6 +23,7 @@ def main(args: argparse.Namespace) -> int:
         print("\n".join(sorted(ORIGINALS)))
         return 0
     from trundle.ros.rospy.environment import SITE, python_libraries
+    from trundle.ros.sdk import GAZEBO_CMAKE
     from trundle.ros.shell import run_shell
 
     return run_shell(
@@ -30,6 +31,7 @@ def main(args: argparse.Namespace) -> int:
         functions=FUNCTIONS,
         python_path=SITE,
         libraries=python_libraries(),
+        gazebo=GAZEBO_CMAKE,
         command=args.command,
         environment=os.environ,
     )

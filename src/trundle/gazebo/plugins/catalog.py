@@ -1,8 +1,8 @@
 """Finder of the plugin of a <plugin filename="…">.
 
-Searched in this order: Trundle's own by Gazebo's file name; installed ones (entry points of the group
-"trundle.plugins", named by file name); a user's Python file: `librp2w.so` means `rp2w.py` beside the
-model, else on TRUNDLE_PLUGIN_PATH, else on GAZEBO_PLUGIN_PATH.
+Searched in this order: a library that was compiled with the development kit; Trundle's own by Gazebo's file name;
+installed ones (entry points of the group "trundle.plugins", named by file name); a user's Python file: `librp2w.so`
+means `rp2w.py` beside the model, else on TRUNDLE_PLUGIN_PATH, else on GAZEBO_PLUGIN_PATH.
 """
 
 import importlib
@@ -11,13 +11,14 @@ import os
 import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path, PurePosixPath
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from trundle.base.diagnostics import DescriptionError, Source
 from trundle.robots.model import PluginTag
 from trundle.robots.packages import HELD_SUFFIX
 from trundle.robots.parameters import TagParameters
 
+from .compiled.library import foreign_library, plugin_library
 from .gazebo_ros.namespaces import WITHOUT_EFFECT
 from .plugin import Hooks, Plugin, VisualPlugin, WorldPlugin
 
@@ -152,12 +153,16 @@ def require_plugin(tag: PluginTag, environment: Mapping[str, str]) -> None:
         DescriptionError: not found, with the folders searched.
     """
     filename = _base_name(tag)
-    if filename not in BUILTIN and not _entry_points(filename):
+    if filename not in BUILTIN and not _entry_points(filename) and plugin_library(tag, environment) is None:
         _python_file(tag, environment)
 
 
 def find_user_file(tag: PluginTag, environment: Mapping[str, str]) -> Path | None:
-    """Return the user's Python file that a plugin would run; None for Trundle's, installed and missing ones."""
+    """Return the user's file that a plugin would run, a library or Python; None for Trundle's, installed and missing
+    ones.
+    """
+    if (library := plugin_library(tag, environment)) is not None:
+        return library
     if _base_name(tag) in BUILTIN or _entry_points(_base_name(tag)):
         return None
     try:
@@ -216,6 +221,9 @@ def _base_name(tag: PluginTag) -> str:
 
 def _find(tag: PluginTag, environment: Mapping[str, str], kind: type[_Kind]) -> tuple[type[_Kind], str]:
     filename = _base_name(tag)
+    library = None if kind is VisualPlugin else plugin_library(tag, environment)
+    if library is not None:
+        return _compiled_class(library, kind), f"{library}, in C++"
     if filename in BUILTIN:
         return _check_kind(_import_object(BUILTIN[filename]), kind, tag), f"Trundle's own {filename}"
     for entry_point in _entry_points(filename):
@@ -223,6 +231,14 @@ def _find(tag: PluginTag, environment: Mapping[str, str], kind: type[_Kind]) -> 
         return _check_kind(entry_point.load(), kind, tag), f"{entry_point.value} ({package})"
     path = _python_file(tag, environment)
     return _load_file(path, kind), str(path)
+
+
+def _compiled_class(library: Path, kind: type[_Kind]) -> type[_Kind]:
+    from .compiled import compiled_model_plugin, compiled_world_plugin  # lazy: most robots have none
+
+    found = compiled_world_plugin(library) if issubclass(kind, WorldPlugin) else compiled_model_plugin(library)
+    assert issubclass(found, kind)
+    return cast("type[_Kind]", found)
 
 
 def _entry_points(filename: str) -> "EntryPoints":
@@ -241,7 +257,9 @@ def _python_file(tag: PluginTag, environment: Mapping[str, str]) -> Path:
             return path
     if filename in SENSOR_PLUGINS:
         raise _misplaced(tag, "sensor")
-    missing = f"plugin {tag.name!r}: no {filename}; Trundle runs Python plugins"
+    missing = (
+        f"plugin {tag.name!r}: no {filename}{_foreign_hint(tag, environment)}; Trundle runs C++ of its kit and Python"
+    )
     if "ros2_control" in filename:
         raise DescriptionError(
             tag.at,
@@ -252,8 +270,13 @@ def _python_file(tag: PluginTag, environment: Mapping[str, str]) -> Path:
     raise DescriptionError(tag.at, f"{missing}: {searched}{_compiled_hint(tag, environment)}", "missing-plugin")
 
 
+def _foreign_hint(tag: PluginTag, environment: Mapping[str, str]) -> str:
+    library = foreign_library(tag, environment)
+    return "" if library is None else f" ({library} is for Gazebo itself: compile it again in `trundle shell`)"
+
+
 def _compiled_hint(tag: PluginTag, environment: Mapping[str, str]) -> str:
-    from .compiled import compiled_plugin  # lazy: only for what is missing
+    from .cpp_hint import compiled_plugin  # lazy: only for what is missing
 
     return compiled_plugin(_base_name(tag), Path(tag.at.file), environment)
 

@@ -111,8 +111,8 @@ class Uploads:
 
 
 def _hold_code(folder: Path) -> None:
-    """Rename a model's files of code, so that nothing runs them before the user consents."""
-    for file in [file for file in folder.rglob("*") if file.suffix.lower() == ".py"]:
+    """Rename a model's files of code, so that nothing runs them before the user consents, and libraries never."""
+    for file in [file for file in folder.rglob("*") if file.suffix.lower() in (".py", ".so", ".dylib")]:
         file.rename(f"{file}{HELD_SUFFIX}")
 
 

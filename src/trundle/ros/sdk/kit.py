@@ -21,6 +21,8 @@ from .toolchain import Toolchain
 
 _ROOT = Path(message_header.__file__).parents[4]
 _INSTALLED = Path(message_header.__file__).parents[2] / "sdk"
+GAZEBO_CMAKE = next((path for path in (_INSTALLED, _ROOT / "sdk") if path.is_dir()), _INSTALLED) / "gazebo/cmake"
+"""Folder in which CMake's find_package finds the kit's Gazebo."""
 _LOG_LINES = 30
 
 

@@ -4,6 +4,9 @@ set -gx TRUNDLE_SHELL @FOLDER@
 set -gx PATH $TRUNDLE_SHELL/bin $PATH
 set -gx --path PYTHONPATH @SITE@ $PYTHONPATH
 set -gx TRUNDLE_LIBRARIES @LIBRARIES@
+set -gx TRUNDLE_PYTHON @PYTHON@
+set -gx gazebo_DIR @GAZEBO@
+set -gx roscpp_DIR @GAZEBO@
 if not set -q ROS_DISTRO
     set -gx ROS_DISTRO noetic
     set -gx ROS_VERSION 1
@@ -43,6 +46,6 @@ function trundle_deactivate
     if set -q _trundle_distro
         set -e ROS_DISTRO ROS_VERSION _trundle_distro
     end
-    set -e TRUNDLE_SHELL TRUNDLE_LIBRARIES
+    set -e TRUNDLE_SHELL TRUNDLE_LIBRARIES TRUNDLE_PYTHON gazebo_DIR roscpp_DIR
     functions -e roscd cp trundle_deactivate
 end

@@ -4,7 +4,10 @@ TRUNDLE_SHELL=@FOLDER@
 PATH="$TRUNDLE_SHELL/bin:$PATH"
 PYTHONPATH=@SITE@"${PYTHONPATH:+:$PYTHONPATH}" # ROS' Python packages, where none are installed
 TRUNDLE_LIBRARIES=@LIBRARIES@ # for other Pythons of the same version
-export TRUNDLE_SHELL PATH PYTHONPATH TRUNDLE_LIBRARIES
+TRUNDLE_PYTHON=@PYTHON@
+gazebo_DIR=@GAZEBO@ # CMake's find_package finds the development kit, where CMake runs alone
+roscpp_DIR=@GAZEBO@
+export TRUNDLE_SHELL PATH PYTHONPATH TRUNDLE_LIBRARIES TRUNDLE_PYTHON gazebo_DIR roscpp_DIR
 if [ -z "${ROS_DISTRO+x}" ]; then
   ROS_DISTRO=noetic
   ROS_VERSION=1
@@ -73,7 +76,7 @@ trundle_deactivate() {
   if [ -n "${_trundle_distro-}" ]; then
     unset ROS_DISTRO ROS_VERSION
   fi
-  unset TRUNDLE_SHELL TRUNDLE_LIBRARIES _trundle_prompt _trundle_distro _trundle_target
+  unset TRUNDLE_SHELL TRUNDLE_LIBRARIES TRUNDLE_PYTHON gazebo_DIR roscpp_DIR _trundle_prompt _trundle_distro _trundle_target
   unset _trundle_word _trundle_inside _trundle_package _trundle_found
   unset -f roscd cp trundle_deactivate _trundle_without _trundle_shared
 }

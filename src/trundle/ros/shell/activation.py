@@ -14,7 +14,9 @@ from trundle.base.atomic_write import write_atomically
 _FISH = "fish"
 
 
-def write_activation(names: Iterable[str], *, functions: Iterable[str], python_path: Path, libraries: str) -> Path:
+def write_activation(
+    names: Iterable[str], *, functions: Iterable[str], python_path: Path, libraries: str, gazebo: Path
+) -> Path:
     """Make a temporary folder with a command for each name, and the files that shells source.
 
     Args:
@@ -22,6 +24,7 @@ def write_activation(names: Iterable[str], *, functions: Iterable[str], python_p
         functions: commands that the shell runs itself, since they change its working directory.
         python_path: folder for PYTHONPATH, with ROS' Python packages.
         libraries: value of TRUNDLE_LIBRARIES, for other Pythons of this version.
+        gazebo: folder in which CMake finds Gazebo's package.
 
     Returns:
         The folder; the caller or the shell's function `trundle_deactivate` removes it.
@@ -40,6 +43,8 @@ def write_activation(names: Iterable[str], *, functions: Iterable[str], python_p
         "@FOLDER@": shlex.quote(str(folder)),
         "@SITE@": shlex.quote(str(python_path)),
         "@LIBRARIES@": shlex.quote(libraries),
+        "@PYTHON@": shlex.quote(sys.executable),
+        "@GAZEBO@": shlex.quote(str(gazebo)),
         "@NAMES@": shlex.join([*completed, *functions]),
     }
     for name, shell in (("activate.sh", "bash"), ("activate.fish", _FISH)):

@@ -25,6 +25,7 @@ def run_shell(
     functions: Iterable[str],
     python_path: Path,
     libraries: str,
+    gazebo: Path,
     command: str | None,
     environment: Environment,
 ) -> int:
@@ -35,6 +36,7 @@ def run_shell(
         functions: commands that the shell runs itself.
         python_path: folder for PYTHONPATH, with ROS' Python packages.
         libraries: value of TRUNDLE_LIBRARIES, for other Pythons of this version.
+        gazebo: folder in which CMake finds Gazebo's package.
         command: text to run; None: an interactive shell.
         environment: variables of the shell; SHELL names it.
 
@@ -42,7 +44,7 @@ def run_shell(
         UsageError: there is no shell.
     """
     shell = find_shell(environment)
-    folder = write_activation(names, functions=functions, python_path=python_path, libraries=libraries)
+    folder = write_activation(names, functions=functions, python_path=python_path, libraries=libraries, gazebo=gazebo)
     try:
         arguments, variables = _start(shell, folder, command)
         with _forwarded_signals() as start:

@@ -1,0 +1,6 @@
+# Plugins for any release of Gazebo are compiled.
+set(PACKAGE_VERSION 11.0.0)
+set(PACKAGE_VERSION_COMPATIBLE TRUE)
+if("${PACKAGE_FIND_VERSION}" VERSION_EQUAL "${PACKAGE_VERSION}")
+  set(PACKAGE_VERSION_EXACT TRUE)
+endif()

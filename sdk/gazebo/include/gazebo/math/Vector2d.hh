@@ -1,0 +1,4 @@
+#ifndef GAZEBO_MATH_VECTOR2D_HH_
+#define GAZEBO_MATH_VECTOR2D_HH_
+#include <gazebo/math/Vector3.hh>
+#endif

@@ -1,0 +1,72 @@
+#ifndef GAZEBO_PHYSICS_MODEL_HH_
+#define GAZEBO_PHYSICS_MODEL_HH_
+
+#include <map>
+#include <string>
+
+#include <gazebo/physics/Entity.hh>
+#include <gazebo/physics/Joint.hh>
+#include <gazebo/physics/JointController.hh>
+#include <gazebo/physics/Link.hh>
+
+namespace gazebo {
+namespace physics {
+
+class Model : public Entity {
+ public:
+  explicit Model(BasePtr parent);
+
+  LinkPtr GetLink(const std::string& name = "canonical") const;
+  LinkPtr GetLinkById(unsigned int id) const;
+  const Link_V& GetLinks() const { return links_; }
+  JointPtr GetJoint(const std::string& name);
+  const Joint_V& GetJoints() const { return joints_; }
+  unsigned int GetJointCount() const { return static_cast<unsigned int>(joints_.size()); }
+  JointControllerPtr GetJointController();
+  unsigned int GetSensorCount() const;
+  bool GetSelfCollide() const { return self_collide_; }
+  bool GetAutoDisable() const { return true; }
+  void SetAutoDisable(bool) {}
+  void SetEnabled(bool) {}
+  unsigned int GetPluginCount() const { return plugin_count_; }
+
+  virtual ignition::math::Pose3d RelativePose() const { return WorldPose(); }
+  virtual ignition::math::Pose3d WorldPose() const;
+  virtual void SetWorldPose(const ignition::math::Pose3d& pose, bool notify = true, bool publish = true);
+  void SetLinkWorldPose(const ignition::math::Pose3d& pose, std::string link);
+  void SetLinkWorldPose(const ignition::math::Pose3d& pose, const LinkPtr& link);
+  virtual ignition::math::Vector3d WorldLinearVel() const;
+  virtual ignition::math::Vector3d WorldAngularVel() const;
+  virtual ignition::math::Vector3d WorldLinearAccel() const;
+  virtual ignition::math::Vector3d WorldAngularAccel() const;
+  // Every link that no joint holds gets this velocity.
+  void SetLinearVel(const ignition::math::Vector3d& velocity);
+  void SetAngularVel(const ignition::math::Vector3d& velocity);
+  void SetWorldTwist(const ignition::math::Vector3d& linear, const ignition::math::Vector3d& angular,
+                     bool update_children = true);
+  void SetJointPosition(const std::string& joint, double position, int axis = 0);
+  void SetJointPositions(const std::map<std::string, double>& positions);
+  void ResetPhysicsStates();
+  // Return to the initial state.
+  virtual void Reset();
+
+  JointPtr CreateJoint(const std::string& name, const std::string& type, LinkPtr parent, LinkPtr child);
+  bool RemoveJoint(const std::string& name);
+  void AttachStaticModel(ModelPtr& model, ignition::math::Pose3d offset);
+  void DetachStaticModel(const std::string& model);
+
+ private:
+  friend struct Builder;
+  friend class World;
+  friend class JointController;
+  Link_V links_;
+  Joint_V joints_;
+  JointControllerPtr controller_;
+  bool self_collide_;
+  unsigned int plugin_count_;
+};
+
+}  // namespace physics
+}  // namespace gazebo
+
+#endif

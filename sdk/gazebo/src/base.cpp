@@ -1,0 +1,74 @@
+#include <atomic>
+
+#include <gazebo/physics/physics.hh>
+
+namespace gazebo {
+namespace physics {
+
+Base::Base(BasePtr parent) : type_(BASE), parent_(parent) {
+  static std::atomic<uint32_t> last_id(0);
+  id_ = ++last_id;
+  if (parent) world_ = parent->GetWorld();
+}
+
+std::string Base::GetScopedName(bool prepend_world_name) const {
+  std::string name = name_;
+  for (BasePtr above = parent_; above; above = above->GetParent()) name = above->GetName() + "::" + name;
+  return prepend_world_name && world_ ? world_->Name() + "::" + name : name;
+}
+
+BasePtr Base::GetChild(const std::string& name) const {
+  for (const BasePtr& child : children_)
+    if (child->GetName() == name || child->GetScopedName() == name) return child;
+  return BasePtr();
+}
+
+BasePtr Base::GetByName(const std::string& name) {
+  if (GetScopedName() == name || name_ == name) return shared_from_this();
+  for (const BasePtr& child : children_)
+    if (const BasePtr found = child->GetByName(name)) return found;
+  return BasePtr();
+}
+
+std::string Base::TypeStr() const {
+  return type_ & MODEL       ? "model"
+         : type_ & LINK      ? "link"
+         : type_ & COLLISION ? "collision"
+         : type_ & JOINT     ? "joint"
+                             : "base";
+}
+
+Entity::Entity(BasePtr parent) : Base(parent), is_static_(false), is_canonical_(false) { type_ |= ENTITY; }
+
+bool Entity::IsStatic() const { return is_static_; }
+
+ModelPtr Entity::GetParentModel() {
+  BasePtr top = shared_from_this();
+  while (top->GetParent()) top = top->GetParent();
+  return boost::dynamic_pointer_cast<Model>(top);
+}
+
+CollisionPtr Entity::GetChildCollision(const std::string& name) {
+  return boost::dynamic_pointer_cast<Collision>(GetByName(name));
+}
+
+LinkPtr Entity::GetChildLink(const std::string& name) { return boost::dynamic_pointer_cast<Link>(GetByName(name)); }
+
+ignition::math::Pose3d Entity::RelativePose() const { return WorldPose(); }
+void Entity::SetRelativePose(const ignition::math::Pose3d& pose, bool notify, bool publish) {
+  const EntityPtr above = boost::dynamic_pointer_cast<Entity>(parent_);
+  SetWorldPose(above ? above->WorldPose() * pose : pose, notify, publish);
+}
+ignition::math::Pose3d Entity::WorldPose() const { return initial_; }
+void Entity::SetWorldPose(const ignition::math::Pose3d&, bool, bool) {}
+
+Collision::Collision(LinkPtr link) : Entity(link) { type_ |= COLLISION; }
+
+LinkPtr Collision::GetLink() const { return boost::static_pointer_cast<Link>(parent_); }
+ModelPtr Collision::GetModel() const { return GetLink()->GetModel(); }
+ignition::math::Pose3d Collision::WorldPose() const { return GetLink()->WorldPose() * initial_; }
+ignition::math::Vector3d Collision::WorldLinearVel() const { return GetLink()->WorldLinearVel(initial_.Pos()); }
+ignition::math::Vector3d Collision::WorldAngularVel() const { return GetLink()->WorldAngularVel(); }
+
+}  // namespace physics
+}  // namespace gazebo

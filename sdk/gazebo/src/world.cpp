@@ -1,0 +1,114 @@
+#include <boost/make_shared.hpp>
+
+#include <gazebo/common/Events.hh>
+#include <gazebo/physics/ContactManager.hh>
+#include <gazebo/physics/physics.hh>
+
+#include "kit.h"
+
+namespace gazebo {
+namespace physics {
+
+PhysicsEngine::PhysicsEngine(World* world)
+    : world_(world), update_rate_(1000.0), real_time_factor_(1.0), contacts_(new ContactManager(world)) {}
+
+PhysicsEngine::~PhysicsEngine() { delete contacts_; }
+
+double PhysicsEngine::GetMaxStepSize() const {
+  const TrundleGazeboHost* host = world_->Host();
+  return static_cast<double>(host->step_ns(host->self)) * 1e-9;
+}
+
+math::Vector3 PhysicsEngine::GetGravity() const { return world_->Gravity(); }
+void PhysicsEngine::SetGravity(const ignition::math::Vector3d& gravity) { world_->SetGravity(gravity); }
+
+JointPtr PhysicsEngine::CreateJoint(const std::string& type, ModelPtr model) {
+  const JointPtr joint = boost::make_shared<Joint>(model);
+  joint->is_made_ = true;
+  joint->type_name_ = type;
+  joint->model_ = model;
+  joint->world_ = world_->shared_from_this();
+  world_->made_joints_.push_back(joint);
+  return joint;
+}
+
+World::World(const std::string& name)
+    : name_(name), host_(nullptr), physics_(boost::make_shared<PhysicsEngine>(this)), last_time_ns_(0), iterations_(0) {
+  start_time_ = common::Time::GetWallTime();
+  update_info_.worldName = name;
+}
+
+World::~World() {}
+
+common::Time World::SimTime() const { return common::Time::FromNanoseconds(host_->time_ns(host_->self)); }
+
+ignition::math::Vector3d World::Gravity() const {
+  double v[3] = {0.0, 0.0, 0.0};
+  host_->read(host_->self, TRUNDLE_GRAVITY, 0, 0, v, 3);
+  return ignition::math::Vector3d(v[0], v[1], v[2]);
+}
+
+void World::SetGravity(const ignition::math::Vector3d& g) { Request({"gravity"}, {g.X(), g.Y(), g.Z()}); }
+void World::Reset() { Request({"reset"}); }
+void World::ResetTime() { Request({"reset_time"}); }
+void World::ResetEntities(Base::EntityType) { Request({"reset_poses"}); }
+void World::RemoveModel(const std::string& name) { Request({"delete", name}); }
+
+ModelPtr World::ModelByName(const std::string& name) const {
+  for (const ModelPtr& model : models_)
+    if (model->GetName() == name) return model;
+  return ModelPtr();
+}
+
+BasePtr World::BaseByName(const std::string& name) const {
+  for (const ModelPtr& model : models_)
+    if (const BasePtr found = model->GetByName(name)) return found;
+  return BasePtr();
+}
+
+EntityPtr World::EntityByName(const std::string& name) const {
+  return boost::dynamic_pointer_cast<Entity>(BaseByName(name));
+}
+
+void World::Request(const std::vector<std::string>& words, const std::vector<double>& numbers) const {
+  std::vector<const char*> texts;
+  for (const std::string& word : words) texts.push_back(word.c_str());
+  host_->request(host_->self, texts.data(), static_cast<int>(texts.size()), numbers.data(),
+                 static_cast<int>(numbers.size()));
+}
+
+void World::BeforeStep(int64_t time_ns, int64_t real_ns) {
+  real_time_ = common::Time::FromNanoseconds(real_ns);
+  if (time_ns < last_time_ns_) event::Events::timeReset.SignalIn(this);
+  last_time_ns_ = time_ns;
+  update_info_.simTime = common::Time::FromNanoseconds(time_ns);
+  update_info_.realTime = real_time_;
+  event::Events::worldUpdateBegin.SignalIn(this, update_info_);
+  const double step_s = physics_->GetMaxStepSize();
+  for (const ModelPtr& model : models_)
+    if (const JointControllerPtr& controller = model->controller_) {
+      controller->step_s_ = step_s;
+      controller->Update();
+    }
+  event::Events::beforePhysicsUpdate.SignalIn(this, update_info_);
+  ConnectJoints();
+}
+
+void World::ConnectJoints() {
+  for (const JointPtr& joint : made_joints_) joint->Connect();
+}
+
+void World::AfterStep(int64_t time_ns, int64_t real_ns) {
+  ++iterations_;
+  real_time_ = common::Time::FromNanoseconds(real_ns);
+  const double step_s = physics_->GetMaxStepSize();
+  for (const ModelPtr& model : models_) {
+    for (const LinkPtr& link : model->links_) link->EndStep(step_s);
+    for (const JointPtr& joint : model->joints_) joint->EndStep();
+  }
+  physics_->GetContactManager()->Update(common::Time::FromNanoseconds(time_ns));
+  event::Events::worldUpdateEnd.SignalIn(this);
+}
+
+}  // namespace physics
+}  // namespace gazebo

@@ -1,0 +1,82 @@
+"""What compiled plugins ask for between two steps."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import TypeAlias
+
+from msgspec.structs import replace
+
+from trundle.base.diagnostics import UsageError
+from trundle.robots.model import Joint, JointAxis, JointType
+from trundle.sim.simulation import Simulation
+from trundle.spatial import Pose
+
+_Request: TypeAlias = Callable[[Simulation, Sequence[str], Sequence[float]], None]
+_FREE = 1e15
+"""Limit from which on a joint is unlimited [rad or m]."""
+
+
+def perform(sim: Simulation, words: Sequence[str], numbers: Sequence[float]) -> None:
+    """Do what a plugin asked for.
+
+    Args:
+        sim: the simulation, between two steps.
+        words: name of the request, and its texts.
+        numbers: its numbers.
+
+    Raises:
+        TrundleError: it cannot be done.
+    """
+    _REQUESTS[words[0]](sim, words[1:], numbers)
+
+
+def _set_model_pose(sim: Simulation, words: Sequence[str], numbers: Sequence[float]) -> None:
+    x, y, z, *rotation = numbers
+    qw, qx, qy, qz = rotation
+    sim[words[0]].set_pose(Pose((x, y, z), (qw, qx, qy, qz)))
+
+
+def _attach(sim: Simulation, words: Sequence[str], numbers: Sequence[float]) -> None:
+    name, kind, parent, child = words
+    try:
+        joint_type = JointType(kind)
+    except ValueError:
+        raise UsageError(f"joint {name!r}: no type {kind!r}") from None
+    axis = None
+    pose = Pose()
+    if numbers:
+        x, y, z, lower, upper, px, py, pz = numbers
+        pose = Pose((px, py, pz))
+        if joint_type is not JointType.FIXED:
+            is_limited = upper - lower < _FREE
+            lower, upper = (lower, upper) if is_limited else (-math.inf, math.inf)
+            axis = JointAxis(direction=(x, y, z), lower=lower, upper=upper)
+    if any(joint.name == name for joint in sim.world.joints):
+        sim.detach(name)
+    at = sim.world.at
+    sim.attach(Joint(name=name, at=at, type=joint_type, parent=parent, child=child, child_from_joint=pose, axis=axis))
+
+
+def _detach(sim: Simulation, words: Sequence[str], numbers: Sequence[float]) -> None:
+    del numbers
+    if any(joint.name == words[0] for joint in sim.world.joints):
+        sim.detach(words[0])
+
+
+def _set_gravity(sim: Simulation, words: Sequence[str], numbers: Sequence[float]) -> None:
+    del words
+    x, y, z = numbers
+    sim.edit(replace(sim.world, physics=replace(sim.world.physics, gravity=(x, y, z))))
+
+
+_REQUESTS: Mapping[str, _Request] = {
+    "set_model_pose": _set_model_pose,
+    "attach": _attach,
+    "detach": _detach,
+    "gravity": _set_gravity,
+    "reset": lambda sim, _words, _numbers: sim.reset(),
+    "reset_time": lambda sim, _words, _numbers: sim.reset(poses=False),
+    "reset_poses": lambda sim, _words, _numbers: sim.reset(time=False),
+    "reset_model": lambda sim, words, _numbers: sim[words[0]].reset(),
+    "delete": lambda sim, words, _numbers: sim.delete(words[0]),
+}

@@ -1,0 +1,207 @@
+"""Plugins of Gazebo in C++, compiled as its tutorials do, in a run of the first tutorial's robot."""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import sysconfig
+from pathlib import Path
+
+import pytest
+from tests.graphs import running_graph, until
+
+from trundle.base.diagnostics import UsageError
+from trundle.ros.sdk import find_toolchain
+
+pytestmark = pytest.mark.slow
+_ROOT = Path(__file__).parents[4]
+_SOURCES = _ROOT / "tests/data/gazebo_plugins"
+_WAIT_S = 300
+
+
+def environment(**variables: str) -> dict[str, str]:
+    """Return variables with CMake's programs on PATH, and nothing that names plugins."""
+    path = os.pathsep.join([sysconfig.get_path("scripts"), os.environ["PATH"]])
+    left_out = ("GAZEBO_PLUGIN_PATH", "CMAKE_PREFIX_PATH", "LD_LIBRARY_PATH", "ROS_MASTER_URI")
+    kept = {name: value for name, value in os.environ.items() if name not in left_out}
+    return {**kept, "PATH": path, **variables}
+
+
+def trundle(*words: str, cwd: Path, **variables: str) -> "subprocess.CompletedProcess[str]":
+    return subprocess.run(
+        [sys.executable, "-m", "trundle", *words],
+        cwd=cwd,
+        env=environment(PWD=str(cwd), **variables),
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=_WAIT_S,
+    )
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a plugin after `cmake .. && make` in its `build`."""
+    try:
+        find_toolchain(os.environ)
+    except UsageError as error:
+        pytest.skip(str(error))
+    if shutil.which("make") is None:
+        pytest.skip("there is no make")
+    folder = tmp_path_factory.mktemp("plugin") / "rp2w_plugin"
+    shutil.copytree(_SOURCES / "drive", folder)
+    (folder / "build").mkdir()
+    done = subprocess.run(
+        [sys.executable, "-m", "trundle", "shell", "-c", "cmake .. && make"],
+        cwd=folder / "build",
+        env=environment(PWD=str(folder / "build")),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return folder
+
+
+def robot(folder: Path, plugin: str) -> Path:
+    """Write the RP2W with another plugin element; return its file."""
+    text = (_ROOT / "examples/rp2w/model.sdf").read_text()
+    text, count = re.subn(r"<plugin [^>]*/>", plugin, text)
+    assert count == 1
+    folder.mkdir(exist_ok=True)
+    (folder / "model.sdf").write_text(text)
+    return folder / "model.sdf"
+
+
+def run(file: Path, *options: str, **variables: str) -> "subprocess.CompletedProcess[str]":
+    words = ("run", file.name, "--headless", "--duration", "3", "--speed", "max", *options)
+    return trundle(*words, cwd=file.parent, **variables)
+
+
+def test_the_robot_drives(built: Path, tmp_path: Path) -> None:
+    """2 rad/s · 0.0635 m · 3 s along -y, from a library on GAZEBO_PLUGIN_PATH."""
+    file = robot(tmp_path / "rp2w", '<plugin name="rp2w" filename="/home/author/librp2w.so"/>')
+
+    done = run(file, "--no-ros", GAZEBO_PLUGIN_PATH=str(built / "build"))
+
+    output = done.stdout + done.stderr
+    assert f"plugin 'rp2w' of rp2w: {built}/build/librp2w.so, in C++\n" in output
+    assert "[Msg] driving rp2w with 6 joints\n" in output
+    at = re.search(r"after 2 s: (\S+) (\S+) yaw (\S+), wheel (\S+) rad/s", output)
+    assert at is not None, output
+    assert [float(word) for word in at.groups()] == pytest.approx([0.0, -0.254, 0.0, 2.0], abs=0.01)
+    stands = re.search(r"rp2w stands at x (\S+), y (\S+), ", output)
+    assert stands is not None, output
+    assert float(stands[2]) == pytest.approx(-0.381, abs=0.01)
+    assert done.returncode == 0
+
+
+def test_its_parameters_are_read(built: Path, tmp_path: Path) -> None:
+    plugin = '<plugin name="rp2w" filename="librp2w.so"><speed> -1.0 </speed></plugin>'
+    file = robot(tmp_path / "rp2w", plugin)
+    shutil.copy(built / "build/librp2w.so", file.parent)
+
+    done = run(file, "--no-ros")
+
+    stands = re.search(r"rp2w stands at x (\S+), y (\S+), ", done.stdout)
+    assert stands is not None, done.stdout + done.stderr
+    assert float(stands[2]) == pytest.approx(0.19, abs=0.01)
+
+
+def test_the_interface_says_and_does_what_is_documented(built: Path) -> None:
+    """A world plugin with checks of SDF, mathematics, poses, velocities, forces, joints, topics and events."""
+    done = run(_SOURCES / "drive/checks.world", "--no-ros", GAZEBO_PLUGIN_PATH=str(built / "build"))
+
+    assert re.search(r"^1\d\d\d checks, 0 failed$", done.stdout, re.MULTILINE), done.stdout + done.stderr
+
+
+def fault(built: Path, folder: Path, kind: str) -> "subprocess.CompletedProcess[str]":
+    plugin = f'<plugin name="bad" filename="libfaulty.so"><fault>{kind}</fault></plugin>'
+    return run(robot(folder / "rp2w", plugin), "--no-ros", GAZEBO_PLUGIN_PATH=str(built / "build"))
+
+
+def test_an_exception_in_load_is_a_sentence(built: Path, tmp_path: Path) -> None:
+    done = fault(built, tmp_path, "load")
+
+    library = built / "build/libfaulty.so"
+    assert f"warning: plugin 'bad': {library}: no wheels; the run goes on without it" in done.stderr + done.stdout
+    assert done.returncode == 0
+
+
+def test_an_exception_in_an_update_is_a_sentence(built: Path, tmp_path: Path) -> None:
+    done = fault(built, tmp_path, "update")
+
+    output = done.stderr + done.stdout
+    fault_text = "joint 7 is gone; the run goes on without this function of it"
+    assert f"model.sdf:224: warning: plugin 'bad': {fault_text}" in output
+    assert output.count("joint 7 is gone") == 1
+    assert "3.000 s simulated" in output
+    assert done.returncode == 0
+
+
+def test_a_crash_names_its_plugin_and_ends_the_process_by_its_signal(built: Path, tmp_path: Path) -> None:
+    done = fault(built, tmp_path, "crash")
+
+    assert "trundle: error: plugin 'bad' crashed in its C++ code (SIGSEGV)" in done.stderr
+    assert done.returncode == -signal.SIGSEGV
+
+
+def test_a_crash_says_which_parameter_was_missing(built: Path, tmp_path: Path) -> None:
+    done = fault(built, tmp_path, "parameter")
+
+    assert "it looked for a parameter that is missing: <plugin> has no <radius>" in done.stderr
+    assert done.returncode == -signal.SIGSEGV
+
+
+@pytest.mark.parametrize("words", [("check",), ("convert", "--to", "urdf")])
+def test_other_commands_load_none(built: Path, tmp_path: Path, words: tuple[str, ...]) -> None:
+    file = robot(tmp_path / "rp2w", '<plugin name="bad" filename="libfaulty.so"><fault>parameter</fault></plugin>')
+
+    done = trundle(words[0], file.name, *words[1:], cwd=file.parent, GAZEBO_PLUGIN_PATH=str(built / "build"))
+
+    assert "crashed" not in done.stderr
+    assert "no libfaulty.so" not in done.stderr + done.stdout
+    assert done.returncode >= 0
+
+
+def test_a_plugin_that_is_a_node_follows_cmd_vel(built: Path, tmp_path: Path) -> None:
+    """Compiled by catkin_make, with a queue and a thread of its own, as gazebo_ros' plugins are."""
+    workspace = tmp_path / "ws"
+    shutil.copytree(_SOURCES / "rp2w_cpp", workspace / "src/rp2w_cpp")
+    made = trundle("--as", "catkin_make", cwd=workspace)
+    assert "library rp2w (src/rp2w.cpp; src/rp2w_cpp/CMakeLists.txt:7): built: " in made.stdout, (
+        made.stdout + made.stderr
+    )
+    plugin = '<plugin name="rp2w" filename="librp2w.so"><robotNamespace>/rp2w</robotNamespace></plugin>'
+    file = robot(workspace / "src/rp2w_cpp/model", plugin)
+
+    poses: list[float] = []
+    with running_graph() as graph:
+        node = graph.node("driver")
+        node.subscribe(
+            "/rp2w/odom_cpp", "nav_msgs/Odometry", lambda message: poses.append(message.pose.pose.position.y)
+        )
+        commands = node.advertise("/rp2w/cmd_vel", "geometry_msgs/Twist")
+        process = subprocess.Popen(
+            [sys.executable, "-m", "trundle", "run", file.name, "--headless", "--duration", "60"],
+            cwd=file.parent,
+            env=environment(ROS_MASTER_URI=graph.core.uri),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
+        try:
+            until(lambda: poses)
+
+            def has_driven() -> bool:
+                commands.publish({"linear": {"x": 0.3, "y": 0.0, "z": 0.0}, "angular": {"x": 0.0, "y": 0.0, "z": 0.0}})
+                return abs(poses[-1]) > 0.2
+
+            until(has_driven)
+        finally:
+            process.send_signal(signal.SIGINT)
+            output, _ = process.communicate(timeout=_WAIT_S)
+    assert "crashed" not in output
+    assert process.returncode == 0, output
