@@ -3,12 +3,15 @@
 import os
 import subprocess
 import sys
+import sysconfig
 from pathlib import Path
 
 import pytest
 
 from trundle.app.cli import main
 from trundle.app.scaffold import ROBOTS
+from trundle.base.diagnostics import UsageError
+from trundle.ros.sdk import find_toolchain
 
 _TIMEOUT_S = 300.0
 
@@ -65,6 +68,19 @@ def test_generated_tests_pass(folder: Path) -> None:
 
 
 @pytest.mark.slow
+def test_the_generated_plugin_in_cpp_is_compiled_and_holds_its_height(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    try:
+        find_toolchain(os.environ)
+    except UsageError as error:
+        pytest.skip(str(error))
+    monkeypatch.setenv("PATH", sysconfig.get_path("scripts"), prepend=os.pathsep)
+    assert main(["new", "plugin", "--cpp", "hover_box"]) == 0
+    _pytest(folder)
+
+
+@pytest.mark.slow
 def test_a_generated_package_node_and_message_work(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert main(["new", "package", "patrol"]) == 0
     package = folder / "patrol"
@@ -102,6 +118,7 @@ def test_existing_files_are_not_overwritten(folder: Path, capsys: pytest.Capture
         (["message", "Speed"], "a message belongs in a package"),
         (["robot", "../rover"], "is not a name"),
         (["world", "yard", "--kind", "arm"], "--kind is only for robots, not for a world"),
+        (["node", "patrol", "--cpp"], "--cpp is only for plugins, not for a node"),
     ],
 )
 def test_invalid_arguments_are_explained(

@@ -10,7 +10,7 @@ EXAMPLES = """
   trundle new package my_robot                        a ROS package with a node, its launch file and its test
   trundle new robot rover                             a robot with two driven wheels; also --kind car|arm|quadruped
   trundle new world yard
-  trundle new plugin hover                            a model, and its plugin in Python
+  trundle new plugin hover                            a model, and its plugin in Python; --cpp: in C++, for Gazebo
   trundle new node patrol                             in a package, as the next two
   trundle new launch bringup
   trundle new message WheelSpeed
@@ -24,6 +24,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("what", choices=kinds, metavar="KIND", help=" | ".join(kinds))
     parser.add_argument("name", help="letters, digits and _; for a message in camel case, such as WheelSpeed")
     parser.add_argument("--kind", choices=_ROBOTS, help="kind of robot (differential)")
+    parser.add_argument("--cpp", action="store_true", help="plugin in C++, as for Gazebo")
     directory = "folder to write to (this one, which is a package for a node or message)"
     parser.add_argument("-C", "--directory", type=Path, default=Path(), metavar="DIR", help=directory)
 
@@ -34,7 +35,9 @@ def main(args: argparse.Namespace) -> int:
 
     if args.kind is not None and args.what != "robot":
         raise UsageError(f"--kind is only for robots, not for a {args.what}")
-    scaffold = scaffolds(args.kind or _ROBOTS[0])[args.what]
+    if args.cpp and args.what != "plugin":
+        raise UsageError(f"--cpp is only for plugins, not for a {args.what}")
+    scaffold = scaffolds(args.kind or _ROBOTS[0], is_cpp=args.cpp)[args.what]
     folder = args.directory
     if args.what == "package":
         package, folder = args.name, folder / args.name

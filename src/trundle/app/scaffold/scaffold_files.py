@@ -48,11 +48,28 @@ _NODE = {
 }
 
 
-def scaffolds(robot: str = ROBOTS[0]) -> dict[str, Scaffold]:
+_CPP_PLUGIN = Scaffold(
+    files={
+        "models/@NAME@/model.config": "model.config",
+        "models/@NAME@/model.sdf": "cpp_plugin.sdf",
+        "models/@NAME@/CMakeLists.txt": "cpp_plugin.cmake",
+        "models/@NAME@/@NAME@.cc": "cpp_plugin.cc",
+        "test/test_@NAME@.py": "test_cpp_plugin.py",
+    },
+    next_steps=(
+        "trundle shell -c 'cmake -S models/@NAME@ -B models/@NAME@/build && make -C models/@NAME@/build'",
+        "trundle run models/@NAME@",
+        "pytest test",
+    ),
+)
+
+
+def scaffolds(robot: str = ROBOTS[0], *, is_cpp: bool = False) -> dict[str, Scaffold]:
     """Return the scaffolds by kind.
 
     Args:
         robot: one of ROBOTS.
+        is_cpp: True for a plugin in C++.
     """
     return {
         "package": Scaffold(
@@ -64,7 +81,9 @@ def scaffolds(robot: str = ROBOTS[0]) -> dict[str, Scaffold]:
             files={"worlds/@NAME@.world": "world.world", "test/test_@NAME@.py": "test_world.py"},
             next_steps=("trundle run worlds/@NAME@.world", "pytest test"),
         ),
-        "plugin": Scaffold(
+        "plugin": _CPP_PLUGIN
+        if is_cpp
+        else Scaffold(
             files={
                 "models/@NAME@/model.config": "model.config",
                 "models/@NAME@/model.sdf": "plugin.sdf",
