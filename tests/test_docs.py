@@ -14,6 +14,7 @@ if not PAGES:
 REASONS = Counter(
     {
         "a GPU": 1,  # tests/gym/test_gpu.py has it
+        "a compiler": 2,  # tests/gazebo/plugins/compiled has one like it
         "a terminal": 1,
         "a workspace": 2,  # tests/ros/sdk compiles others
         "docker": 2,

@@ -11,7 +11,17 @@ from mkdocs.structure.files import File, Files
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "docs"))  # MkDocs loads this file by its path
 
-from generate import api, catalogs, command_line, diagnostics, elements, gallery, pictures, tags  # noqa: E402
+from generate import (  # noqa: E402
+    api,
+    catalogs,
+    command_line,
+    diagnostics,
+    elements,
+    gallery,
+    gazebo_headers,
+    pictures,
+    tags,
+)
 
 PAGES: dict[str, Callable[[], str]] = {
     "decisions/index.md": lambda: _decisions(),
@@ -19,6 +29,7 @@ PAGES: dict[str, Callable[[], str]] = {
     "reference/cli.md": command_line.page,
     "reference/controllers.md": catalogs.controllers_page,
     "reference/diagnostics.md": diagnostics.page,
+    "reference/gazebo_cpp.md": gazebo_headers.page,
     "reference/nodes.md": catalogs.nodes_page,
     "reference/plugins.md": catalogs.plugins_page,
     "reference/python.md": api.page,
