@@ -146,8 +146,8 @@ void ParticleFilter::weigh(LaserModel& model, const LaserScan& scan) {
   if (particles_.size() > static_cast<std::size_t>(options_.max_particles)) draw();
 }
 
-// Counts the last scan several times. amcl's sum over a scan's beams distinguishes poses little: a pose 0.1 m off
-// gets three quarters of the likelihood, so that particles follow an odometry that is wrong by a few percent.
+// Counts the last scan several times. amcl's sum over a scan's beams tells little: a pose 0.1 m off is taken for three
+// quarters as likely, so that particles follow an odometry that is wrong by a few percent.
 void ParticleFilter::sharpen(const std::vector<double>& before) {
   double total = 0.0;
   for (std::size_t i = 0; i < particles_.size(); ++i) {

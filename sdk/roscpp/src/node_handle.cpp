@@ -60,7 +60,7 @@ struct ServiceServer::Impl {
 
 struct NodeHandle::Made {
   std::mutex mutex;
-  std::vector<std::function<bool(bool)>> parts;  // called with true, ends a part; false: it is gone
+  std::vector<std::function<bool(bool)>> parts;  // ends a part, if asked to; false once it is gone
 
   template <class Impl>
   void add(const boost::shared_ptr<Impl>& impl) {

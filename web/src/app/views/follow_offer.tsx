@@ -1,4 +1,4 @@
-/** Offers to follow the robot when it leaves a view that nobody moves, or drives behind the page's controls. */
+/** Offers to follow the robot when it has left a view that nobody moves, or drives behind the controls over it. */
 
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
@@ -64,7 +64,7 @@ export function FollowOffer({ shell }: { readonly shell: Shell }): JSX.Element |
   );
 }
 
-/** Call `tell` periodically: with the reason why the robot is not visible, or with null while it is visible. */
+/** Tell where the robot is if it is not seen, at first and while it stays so, and when it is seen again (null). */
 function watchRobot(page: Page, tell: (unseen: Unseen | null, isNew: boolean) => void): () => void {
   const camera = new Matrix4();
   let since = 0;
