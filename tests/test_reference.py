@@ -1,6 +1,7 @@
 """The reference of the Python API: it names what `trundle` has, with units, shapes and an example of each call."""
 
 import ast
+import importlib
 import inspect
 import re
 import runpy
@@ -116,6 +117,45 @@ def test_all_public_calls_have_an_example() -> None:
 
     assert len(calls) > 80
     assert [name for name, is_member in calls if example_of(name, is_member=is_member) is None] == []
+
+
+def _package_functions() -> Iterator[tuple[str, Any]]:
+    """Yield the functions, methods and properties of the packages' public names."""
+    for package, names in _API["PACKAGES"].items():
+        for name in names.split():
+            value = getattr(importlib.import_module(package), name)
+            if inspect.isfunction(value):
+                yield f"{package}.{name}", value
+            for member, part in vars(value).items() if inspect.isclass(value) else ():
+                function = part.fget if isinstance(part, property) else part
+                if not member.startswith("_") and inspect.isfunction(function):
+                    yield f"{package}.{name}.{member}", function
+
+
+def test_arrays_of_packages_have_shapes() -> None:
+    functions = list(_package_functions())
+    faults = [
+        name
+        for name, function in functions
+        if re.search(r"ndarray|NDArray|_Array", " ".join(map(str, function.__annotations__.values())))
+        and not re.search(rf"{_SHAPE.pattern}|^See `", function.__doc__ or "")
+    ]
+    assert len(functions) > 80
+    assert faults == []
+
+
+def test_the_names_of_the_packages_have_an_example() -> None:
+    example_of = _API["example_of"]
+    names = [
+        name
+        for package in ("trundle.gym", "trundle.ros", "trundle.spatial")
+        for name in _API["PACKAGES"][package].split()
+    ]
+    assert [name for name in names if example_of(name) is None] == []
+
+
+def test_the_reference_has_all_names_of_gym() -> None:
+    assert set(_API["PACKAGES"]["trundle.gym"].split()) == set(trundle.gym.__all__)
 
 
 def test_errors_are_in_the_docstrings() -> None:

@@ -40,11 +40,11 @@ class MlpPolicy(Struct, frozen=True, eq=False):
         return self.scale(evaluate(self.parameters, self.normalize(observation)))
 
     def normalize(self, observation: NDArray[np.floating]) -> _Array:
-        """Return observations in standard deviations from the mean."""
+        """Return observations (…, values) in standard deviations from the mean."""
         return np.clip((observation - self.mean) / self.deviation, -_MAX_DEVIATION, _MAX_DEVIATION)
 
     def scale(self, outputs: _Array) -> _Array:
-        """Return actions for outputs in −1 … 1."""
+        """Return actions (…, values) for outputs in −1 … 1."""
         return (self.low + self.high) / 2 + (self.high - self.low) / 2 * np.clip(outputs, -1.0, 1.0)
 
     def save(self, file: str | PathLike[str]) -> None:

@@ -31,14 +31,23 @@ class SimulationEnv(gymnasium.Env[Observed, Any]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, object] | None = None
     ) -> tuple[Observed, dict[str, object]]:
-        """Begin an episode; the same seed gives bit-identical results."""
+        """Begin an episode; the same seed gives bit-identical results.
+
+        Returns the observation, (values,) or a dictionary of such arrays by name, and an empty `info`.
+        """
         super().reset(seed=seed, options=options)
         self.worlds.random[0] = self.np_random
         self.worlds.reset(0)
         return self._observation(), {}
 
     def step(self, action: NDArray[np.float32]) -> tuple[Observed, float, bool, bool, dict[str, Any]]:
-        """Act for one period; unstable physics ends the episode, and info has "unstable"."""
+        """Act for one period; unstable physics ends the episode, and info has "unstable".
+
+        Args:
+            action: (values,), in the units of its action: [N], [N·m], [m/s], [rad/s], [m] or [rad].
+
+        Returns observation, reward, terminated, truncated and info.
+        """
         step = self.worlds.step(np.asarray(action)[None])
         info = {"unstable": True} if self.worlds.states.batch.unstable[0] else {}
         return self._observation(), float(step.rewards[0]), bool(step.terminated[0]), bool(step.truncated[0]), info

@@ -44,7 +44,7 @@ class SimulationVectorEnv(VectorEnv[Observed, NDArray[np.float32], Any]):
     def reset(
         self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, object] | None = None
     ) -> tuple[Observed, dict[str, object]]:
-        """Begin an episode of every world.
+        """Begin an episode of every world; return the observations (rows, values) and `info`.
 
         Args:
             seed: seed of the first world, the following worlds have the following seeds; or one seed for each world.
@@ -69,7 +69,13 @@ class SimulationVectorEnv(VectorEnv[Observed, NDArray[np.float32], Any]):
     def step(
         self, actions: NDArray[np.float32]
     ) -> tuple[Observed, NDArray[np.float64], _Bools, _Bools, dict[str, Any]]:
-        """Act for one period in each world; reset worlds whose episodes ended in the last step."""
+        """Act for one period in each world; reset worlds whose episodes ended in the last step.
+
+        Args:
+            actions: (rows, values), in the units of their action.
+
+        Returns observations (rows, values), and rewards, terminated and truncated (rows,), and info.
+        """
         was_ended = self._ended
         step = self.worlds.step(actions, chosen=~was_ended)
         for row in np.flatnonzero(was_ended).tolist():
