@@ -142,12 +142,14 @@ void ParticleFilter::weigh(LaserModel& model, const LaserScan& scan) {
       slow_average_ == 0.0 ? likelihood : slow_average_ + options_.alpha_slow * (likelihood - slow_average_);
   fast_average_ =
       fast_average_ == 0.0 ? likelihood : fast_average_ + options_.alpha_fast * (likelihood - fast_average_);
-  if (is_converged && !model.is_sharp()) sharpen(before);
-  if (particles_.size() > static_cast<std::size_t>(options_.max_particles)) draw();
+  const bool has_candidates = particles_.size() > static_cast<std::size_t>(options_.max_particles);
+  if ((is_converged || has_candidates) && !model.is_sharp()) sharpen(before);
+  if (has_candidates) draw();
 }
 
 // Counts the last scan several times. amcl's sum over a scan's beams tells little: a pose 0.1 m off is taken for three
-// quarters as likely, so that particles follow an odometry that is wrong by a few percent.
+// quarters as likely, so that particles follow an odometry that is wrong by a few percent, and of the candidates all
+// over a map those near the robot are hardly kept more often than others.
 void ParticleFilter::sharpen(const std::vector<double>& before) {
   double total = 0.0;
   for (std::size_t i = 0; i < particles_.size(); ++i) {

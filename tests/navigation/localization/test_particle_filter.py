@@ -139,6 +139,27 @@ def test_fewer_particles_suffice_when_they_are_close_together() -> None:
     assert len(particles.particles()) < 500
 
 
+def test_the_first_scan_keeps_the_candidates_near_the_robot() -> None:
+    """With turtlebot3's parameters, of 30,000 all over the map a few dozen are near; 3,000 are kept."""
+    pose = (5.0, 1.0, 0.7)
+    model = laser(max_beams=180, z_hit=0.5, z_rand=0.5, z_short=0.05, z_max=0.05, max_distance=2.0)
+    particles = ParticleFilter(options(min_particles=500, max_particles=3000, kld_err=0.02), house_map(), seed=1)
+
+    def near() -> tuple[int, float]:
+        drawn = particles.particles()
+        turned = np.remainder(drawn[:, 2] - pose[2] + math.pi, math.tau) - math.pi
+        is_near = (np.hypot(drawn[:, 0] - pose[0], drawn[:, 1] - pose[1]) < 0.3) & (np.abs(turned) < 0.3)
+        return len(drawn), float(is_near.mean())
+
+    particles.spread_over_map()
+    count, share = near()
+    weigh(particles, model, ranges_at(house_map(), pose))
+
+    assert (count, near()[0]) == (30_000, 3000)
+    assert 0.0 < share < 0.003
+    assert near()[1] > 50.0 * share
+
+
 def test_resampling_draws_in_proportion_to_the_weights() -> None:
     world = house_map()
     particles = ParticleFilter(options(count=2000), world, seed=1)
