@@ -13,7 +13,6 @@ ALTERNATIVES: dict[str, str] = {
     "costmap_2d": _NAVIGATION,
     "global_planner": _NAVIGATION,
     "karto_slam": _NAVIGATION,
-    "slam_karto": _NAVIGATION,
     "moveit_ros_move_group": _NAVIGATION,
     "moveit_ros_visualization": _NAVIGATION,
     "moveit_ros_benchmarks": _NAVIGATION,
