@@ -99,10 +99,16 @@ class CompareUser(WorldUser):
         field.press("Enter")
         self.button("Close").click()
 
-    def legend(self, path: str) -> str:
-        """Return the text of a curve's row below its plot."""
+    def until_plotted(self, path: str, value: float, reference: float | None) -> None:
+        """Wait until a curve's newest value, and the reference's, are shown beside its plot."""
         row = self.page.locator(".legend li").filter(has=self.page.locator(f"[title^='{path}']"))
-        return str(row.inner_text())
+        expected = [value] if reference is None else [value, reference]
+
+        def shown() -> list[float]:
+            texts = [*row.locator("b").all_inner_texts(), *row.locator(".referenced .num").all_inner_texts()]
+            return [float(text.replace("−", "-")) for text in texts if text.strip() != "—"]
+
+        self.until(lambda: shown() == pytest.approx(expected, abs=1e-3), what=f"{path}: {shown()}, not {expected}")
 
     def until_distance(self, distance: float) -> None:
         self.until(lambda: abs(self.number("puck", "distance", 2) - distance) < 6e-4, what=f"for {distance} m")
@@ -212,13 +218,11 @@ def test_poses_and_velocities_of_two_logs_are_compared(chromium: Any, folder: Pa
 
         assert user.number("puck", "angle", 2) == pytest.approx(math.degrees(0.3), abs=0.02)
         speeds = [user.cells("puck", quantity)[2] for quantity in ("velocity", "angular velocity")]
-        assert [text.split()[0] for text in speeds] == ["0.640", "0.300"]
+        assert speeds == ["0.640m/s", "0.300rad/s"]
         user.open("Plots")
-        user.until(lambda: "0.400" in user.legend("puck.pose.y"), what="for the played puck's place")
-        assert "reference 0.500" in user.legend("puck.pose.y")
-        assert "0.000" in user.legend("puck::l.twist.linear.x")
-        assert "reference 0.500" in user.legend("puck::l.twist.linear.x")
+        user.until_plotted("puck.pose.y", 0.4, 0.5)
+        user.until_plotted("puck::l.twist.linear.x", 0.0, 0.5)
         user.page.get_by_label("Recording to compare with").select_option("Difference")
-        user.until(lambda: "−0.100" in user.legend("puck.pose.y"), what="for the difference of places")
-        assert "−0.500" in user.legend("puck::l.twist.linear.x")
+        user.until_plotted("puck.pose.y", -0.1, None)
+        user.until_plotted("puck::l.twist.linear.x", -0.5, None)
         user.close()
