@@ -46,7 +46,7 @@ def harness(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
     folder = tmp_path_factory.mktemp("harness")
     build = ("exec", "--", "vite", "build", "--config", "test/harness/vite.config.ts", "--outDir", str(folder))
-    subprocess.run([sys.executable, _WEB / "npm.py", *build], check=True, capture_output=True, timeout=120)
+    subprocess.run([sys.executable, _WEB / "npm.py", *build], check=True, capture_output=True, timeout=600)
     return folder
 
 

@@ -1,5 +1,6 @@
 """Images of a description, from one of its cameras or in a three-quarter view."""
 
+import itertools
 from collections.abc import Mapping
 from colorsys import hsv_to_rgb
 from dataclasses import dataclass
@@ -37,6 +38,10 @@ DEFAULT_SIZE = (800, 600)
 _SAMPLES = 2
 """Supersampling per axis, against jagged edges."""
 _MAX_PX = 3840 * 2160
+_LOOK_S = 0.1
+"""Period at which a video's motion is looked at beforehand [s]."""
+_REACH = 3.0
+"""Limit of the distance from the middle of a scene, per its radius, of what moves and still belongs to it."""
 _GOLDEN = 0.61803398875
 _COLORS = [(0.0, 0.0, 0.0)] + [hsv_to_rgb(i * _GOLDEN % 1.0, 0.5 + i % 3 * 0.2, 1.0 - i % 2 * 0.3) for i in range(255)]
 _PALETTE = np.round(np.array(_COLORS) * 255.0).astype(np.uint8)
@@ -132,6 +137,23 @@ class PictureRenderer:
         poses = np.concatenate([snapshot.poses, self._static_poses])
         poses[self._ground, 2] += self._ground_offset_m
         return poses
+
+    def include_motion(self, duration_s: float) -> None:
+        """Let the three-quarter view contain what moves in the coming seconds, but for what leaves the scene."""
+        if self._sensor is not None:
+            return
+        middle = (self._cloud.min(axis=0) + self._cloud.max(axis=0)) / 2
+        reach = _REACH * float(np.linalg.norm(self._cloud - middle, axis=1).max())
+        low, high = self._cloud.min(axis=0), self._cloud.max(axis=0)
+        state = self.simulation.save()
+        for _ in range(round(duration_s / _LOOK_S)):
+            self.simulation.run(_LOOK_S)
+            points = scene_corners(self._scene, self._poses(self.simulation.snapshot()))
+            near = points[np.linalg.norm(points - middle, axis=1) <= reach]
+            low = np.minimum(low, near.min(axis=0, initial=np.inf))
+            high = np.maximum(high, near.max(axis=0, initial=-np.inf))
+        self.simulation.restore(state)
+        self._cloud = np.array(list(itertools.product(*zip(low.tolist(), high.tolist(), strict=True))))
 
     def render(self, *, turned_rad: float = 0.0) -> Image.Image:
         """Draw the current state; `turned_rad` turns the three-quarter view about z, counter-clockwise from above."""

@@ -22,6 +22,7 @@ def turntable(renderer: PictureRenderer) -> Iterator[Image.Image]:
 
 def simulated_frames(renderer: PictureRenderer, duration_s: float) -> Iterator[Image.Image]:
     """Yield frames of the simulation from now on, at real-time speed."""
+    renderer.include_motion(duration_s)
     start_ns = renderer.simulation.time_ns
     for i in range(max(round(duration_s * FRAMES_PER_S), 1)):
         remaining_s = (start_ns - renderer.simulation.time_ns) * 1e-9 + i / FRAMES_PER_S
