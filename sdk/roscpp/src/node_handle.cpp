@@ -1,5 +1,6 @@
 #include "ros/node_handle.h"
 
+#include <atomic>
 #include <mutex>
 
 #include "node.h"
@@ -61,6 +62,7 @@ struct ServiceServer::Impl {
 struct NodeHandle::Made {
   std::mutex mutex;
   std::vector<std::function<bool(bool)>> parts;  // ends a part, if asked to; false once it is gone
+  std::atomic<bool> is_shut_down{false};
 
   template <class Impl>
   void add(const boost::shared_ptr<Impl>& impl) {
@@ -232,6 +234,7 @@ SteadyTimer NodeHandle::createSteadyTimer(SteadyTimerOptions& options) const {
 }
 
 void NodeHandle::shutdown() {
+  made_->is_shut_down = true;
   std::vector<std::function<bool(bool)>> parts;
   {
     const std::lock_guard<std::mutex> lock(made_->mutex);
@@ -240,7 +243,7 @@ void NodeHandle::shutdown() {
   for (const auto& part : parts) part(true);
 }
 
-bool NodeHandle::ok() const { return ros::ok(); }
+bool NodeHandle::ok() const { return ros::ok() && !made_->is_shut_down; }
 
 // Handles
 

@@ -145,6 +145,10 @@ void checkTopics(ros::NodeHandle& n) {
   same.shutdown();
   CHECK(!same && same.getNumPublishers() == 0 && poses.getNumSubscribers() == 0);
 
+  ros::NodeHandle ended;
+  ended.shutdown();
+  CHECK(!ended.ok() && n.ok());
+
   // A queue of its own, whose oldest messages are dropped.
   ros::CallbackQueue queue;
   ros::NodeHandle other(n);
