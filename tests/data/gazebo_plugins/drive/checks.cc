@@ -164,12 +164,42 @@ private:
       CHECK(Near(this->turn->GetVelocity(0), 0.25) && this->turn->GetParam("fmax", 0) == 10.0);
       this->publisher->Publish(msgs::GzString());
     }
-    if (step == 1200)
+    CheckJoint(step);
+    if (step == 1400)
     {
       CHECK(this->texts == 1 && this->ends == this->steps - 1);
       std::printf("%d checks, %d failed\n", checks, failed);
       std::fflush(stdout);
     }
+  }
+
+  // A rigid joint made at run time, attached first and limited afterwards, as plugins that grasp do.
+  void CheckJoint(int _step)
+  {
+    const physics::LinkPtr tip = this->turn->GetChild();
+    if (_step == 1110)
+    {
+      this->box->SetWorldTwist(ignition::math::Vector3d(), ignition::math::Vector3d());
+      this->made = this->world->Physics()->CreateJoint("revolute", this->box);
+      this->made->Attach(tip, this->body);
+      this->made->Load(tip, this->body, ignition::math::Pose3d());
+      this->made->SetModel(this->box);
+      this->made->SetUpperLimit(0, 0);
+      this->made->SetLowerLimit(0, 0);
+      this->made->Init();
+      this->offset = this->body->WorldPose() - tip->WorldPose();
+    }
+    if (_step == 1300)
+    {
+      CHECK(this->turn->GetVelocity(0) > 0.1);
+      CHECK((this->body->WorldPose() - tip->WorldPose()).Equal(this->offset, 5e-3));
+      CHECK(this->body->WorldLinearVel().Length() > 0.05);
+      this->made->Detach();
+    }
+    if (_step == 1350)
+      this->body->AddForce(ignition::math::Vector3d(0, 0, 2000));
+    if (_step == 1352)
+      CHECK(this->body->WorldLinearVel().Z() > 0.9 && Near(tip->WorldLinearVel().Z(), 0));
   }
 
   void OnEnd() { ++this->ends; }
@@ -178,7 +208,8 @@ private:
   physics::WorldPtr world;
   physics::ModelPtr box;
   physics::LinkPtr body;
-  physics::JointPtr turn;
+  physics::JointPtr turn, made;
+  ignition::math::Pose3d offset;
   event::ConnectionPtr begin, end;
   transport::NodePtr node;
   transport::SubscriberPtr subscriber;
