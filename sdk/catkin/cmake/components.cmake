@@ -34,6 +34,8 @@ macro(_trundle_read_component component)
       list(APPEND ${component}_LIBRARIES "${TRUNDLE_KIT}/lib/lib${_trundle_library}${CMAKE_SHARED_LIBRARY_SUFFIX}")
     endforeach()
     list(APPEND ${component}_LIBRARIES ${_TRUNDLE_BOOST_LIBRARIES} Threads::Threads)
+    # Libraries of the machine that its headers need.
+    include("${TRUNDLE_SDK}/${component}/cmake/extras.cmake" OPTIONAL)
   elseif(NOT IS_DIRECTORY "${TRUNDLE_SDK}/${component}" AND NOT ${component} IN_LIST TRUNDLE_HEADER_PACKAGES)
     set(${component}_FOUND FALSE)
     foreach(_trundle_prefix IN LISTS TRUNDLE_UNDERLAYS)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from tests.gazebo.nodes.conftest import PATIENCE_S
 
-from trundle.gazebo.nodes import BuiltinReplacement, MissingNode, find_node
+from trundle.gazebo.nodes import BuiltinReplacement, Executable, MissingNode, find_node
 from trundle.gazebo.nodes.catalog import NODELETS
 
 
@@ -40,8 +40,31 @@ def test_a_nodelet_of_a_local_package_is_compiled_in_the_container(tmp_path: Pat
     (tmp_path / "CMakeLists.txt").write_text("project(near)")
     node = find_node("nodelet", "nodelet", lambda _: tmp_path, env={}, arguments="load near/Blur manager")
     assert isinstance(node, MissingNode)
+    assert "; catkin_make compiles near, after which launch files load it" in node.reason
     assert f"-v {tmp_path}:/ws/src/{tmp_path.name}:ro " in node.reason
     assert node.reason.endswith("catkin_make && . devel/setup.sh && rosrun nodelet nodelet standalone near/Blur'")
+
+
+def test_a_compiled_nodelet_and_its_manager_run_in_the_kits_program(tmp_path: Path) -> None:
+    """catkin_make links it into the workspace; nodelets with a stand-in do without."""
+    folder = tmp_path / "ws/src/near"
+    folder.mkdir(parents=True)
+    (tmp_path / "nodelet").touch(mode=0o755)
+    home = tmp_path / "ws/devel/lib/nodelet"
+    home.mkdir(parents=True)
+    (home / "nodelet").symlink_to(tmp_path / "nodelet")
+    env = {"ROS_PACKAGE_PATH": f"{tmp_path}/none:{tmp_path}/ws/src"}
+
+    def find(arguments: str) -> object:
+        return find_node(
+            "nodelet", "nodelet", lambda name: folder if name == "near" else None, env=env, arguments=arguments
+        )
+
+    for arguments in ("load near/Blur m", "standalone near/Blur", "manager", "unload near m"):
+        assert find(arguments) == Executable(home / "nodelet")
+    stand_in = "load depthimage_to_laserscan/DepthImageToLaserScanNodelet manager"
+    assert isinstance(find(stand_in), BuiltinReplacement)
+    assert isinstance(find("load image_proc/rectify manager"), MissingNode)
 
 
 def test_an_invalid_command_line_is_reported(graph, capsys) -> None:

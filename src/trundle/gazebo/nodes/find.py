@@ -177,6 +177,7 @@ def missing_nodelet(
     if folder is None or not os.path.isfile(folder / "CMakeLists.txt"):
         line = package_in_container(package, command, env)
     else:
+        message += f"; catkin_make compiles {package}, after which launch files load it"
         line = source_in_container(folder, command, env, needs="nodelet")
     return f"{message}; {OVER_THE_WIRE}: {line}"
 

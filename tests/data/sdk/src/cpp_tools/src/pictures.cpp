@@ -1,0 +1,78 @@
+// Conversions of cv_bridge; prints a line for each check that fails.
+#include <cv_bridge/cv_bridge.h>
+#include <ros/ros.h>
+
+#include <iostream>
+
+namespace {
+
+int made = 0, failed = 0;
+#define CHECK(cond)                                                    \
+  do {                                                                 \
+    ++made;                                                            \
+    if (!(cond)) {                                                     \
+      ++failed;                                                        \
+      std::cout << "failed, line " << __LINE__ << ": " #cond << std::endl; \
+    }                                                                  \
+  } while (false)
+
+sensor_msgs::ImagePtr picture(const std::string& encoding, uint32_t width, uint32_t step, std::vector<uint8_t> bytes) {
+  const sensor_msgs::ImagePtr image = boost::make_shared<sensor_msgs::Image>();
+  image->header.frame_id = "eye";
+  image->encoding = encoding;
+  image->width = width;
+  image->step = step;
+  image->height = static_cast<uint32_t>(bytes.size()) / step;
+  image->data = bytes;
+  return image;
+}
+
+std::string fault(const sensor_msgs::Image& image, const std::string& encoding = "") {
+  try {
+    cv_bridge::toCvCopy(image, encoding);
+  } catch (const cv_bridge::Exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+int main() {
+  ros::Time::init();
+  const sensor_msgs::ImagePtr rgb = picture("rgb8", 2, 6, {0, 10, 20, 30, 40, 50});
+  const cv_bridge::CvImagePtr bgr = cv_bridge::toCvCopy(rgb, sensor_msgs::image_encodings::BGR8);
+  CHECK(bgr->image.at<cv::Vec3b>(0, 1) == cv::Vec3b(50, 40, 30) && bgr->header.frame_id == "eye");
+  CHECK(bgr->toImageMsg()->data == std::vector<uint8_t>({20, 10, 0, 50, 40, 30}) && bgr->toImageMsg()->step == 6);
+  const cv_bridge::CvImageConstPtr shared = cv_bridge::toCvShare(rgb);
+  CHECK(shared->image.data == rgb->data.data() && shared->encoding == "rgb8");
+  CHECK(cv_bridge::toCvShare(rgb, "mono8")->image.type() == CV_8UC1);
+  // 8 and 16 bits: white stays white.
+  const sensor_msgs::ImagePtr gray = picture("mono8", 2, 4, {255, 128, 9, 9});  // rows are padded
+  CHECK(cv_bridge::toCvCopy(gray, "mono16")->image.at<uint16_t>(0, 0) == 65535);
+  CHECK(cv_bridge::toCvCopy(gray, "rgba8")->image.at<cv::Vec4b>(0, 1) == cv::Vec4b(128, 128, 128, 255));
+  CHECK(cv_bridge::toCvCopy(gray)->toImageMsg()->data == std::vector<uint8_t>({255, 128}));
+  sensor_msgs::ImagePtr depth = picture("16UC1", 2, 4, {1, 2, 3, 4});
+  depth->is_bigendian = 1;
+  CHECK(cv_bridge::toCvCopy(depth)->image.at<uint16_t>(0, 1) == 0x304);
+  CHECK(cv_bridge::toCvShare(depth, "32FC1")->image.at<float>(0, 0) == 0x102);
+  CHECK(cv_bridge::getCvType("32FC4") == CV_32FC4 && cv_bridge::getCvType("bayer_rggb16") == CV_16UC1);
+  // A picture of one red pixel per 2 × 2.
+  std::vector<uint8_t> mosaic(64, 0);
+  for (size_t i = 0; i < 64; i += 16)
+    for (size_t k = 0; k < 8; k += 2) mosaic[i + k] = 200;
+  const cv::Vec3b center = cv_bridge::toCvCopy(picture("bayer_rggb8", 8, 8, mosaic), "rgb8")->image.at<cv::Vec3b>(4, 4);
+  CHECK(center == cv::Vec3b(200, 0, 0));
+
+  CHECK(fault(*rgb, "32FC1").find("is not a color format") != std::string::npos);
+  CHECK(fault(*rgb, "none").find("Unrecognized image encoding") != std::string::npos);
+  CHECK(fault(*rgb, "yuv422").find("Unsupported conversion") != std::string::npos);
+  rgb->height = 4000000000u;
+  CHECK(fault(*rgb) == "Image is wrongly formed: height * step != size");
+  rgb->step = 5;
+  CHECK(fault(*rgb) == "Image is wrongly formed: step < width * byte_depth * num_channels");
+  rgb->width = rgb->step = 0;
+  CHECK(fault(*rgb).empty());
+  std::cout << made << " checks, " << failed << " failed" << std::endl;
+  return failed == 0 ? 0 : 1;
+}
