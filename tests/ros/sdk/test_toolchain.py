@@ -1,11 +1,15 @@
-"""What a build says about a machine without compiler, and about targets that fail."""
+"""What a build says about a machine without compiler, about another build, and about targets that fail."""
 
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
+from tests.graphs import until
 
 from trundle.base.diagnostics import UsageError
-from trundle.ros.sdk import find_toolchain
+from trundle.base.file_lock import FileLock
+from trundle.ros.sdk import Toolchain, compiled_kit, find_toolchain, kit_sources
+from trundle.ros.sdk.kit import _digest
 from trundle.ros.sdk.package_build import _cmake_error, _failures
 
 
@@ -14,6 +18,20 @@ def test_without_a_compiler_a_sentence_says_what_to_install(tmp_path: Path) -> N
         find_toolchain({"PATH": str(tmp_path)})
     with pytest.raises(UsageError, match="CXX names 'cc-of-mine', which is not found"):
         find_toolchain({"PATH": str(tmp_path), "CXX": "cc-of-mine"})
+
+
+def test_a_build_waits_for_another_that_compiles_the_kit(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    toolchain = Toolchain("c++", "1", "cmake", "ninja", None)
+    folder = tmp_path / "trundle/sdk" / _digest(kit_sources(), toolchain, "")
+    folder.mkdir(parents=True)
+    folder.parent.chmod(0o700)
+    other = FileLock(folder)
+    with ThreadPoolExecutor() as pool:
+        waiting = pool.submit(compiled_kit, toolchain, {"XDG_CACHE_HOME": str(tmp_path)})
+        until(lambda: "waiting for another build" in capsys.readouterr().err)
+        (folder / "ready").touch()
+        other.release()
+        assert waiting.result().folder == folder
 
 
 def test_each_failed_target_has_its_first_error() -> None:

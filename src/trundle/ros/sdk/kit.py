@@ -1,11 +1,13 @@
 """The development kit: its sources, and its libraries, compiled once per compiler into the user's cache."""
 
+import errno
 import hashlib
 import os
 import re
 import shutil
 import subprocess
 import sys
+import time
 from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
@@ -24,6 +26,7 @@ _INSTALLED = Path(message_header.__file__).parents[2] / "sdk"
 GAZEBO_CMAKE = next((path for path in (_INSTALLED, _ROOT / "sdk") if path.is_dir()), _INSTALLED) / "gazebo/cmake"
 """Folder in which CMake's find_package finds the kit's Gazebo."""
 _LOG_LINES = 30
+_POLL_S = 0.5
 
 
 class Kit(NamedTuple):
@@ -62,7 +65,7 @@ def compiled_kit(toolchain: Toolchain, environment: Mapping[str, str], *, flags:
             raise UsageError(f"{root} is writable by another user, who could replace the libraries in it; remove it")
         folder = root / _digest(sources, toolchain, flags)
         folder.mkdir(exist_ok=True)
-        lock = FileLock(folder)
+        lock = _lock(folder)
     except OSError as error:
         raise UsageError(f"cannot write {error.filename}: {error.strerror}") from None
     try:
@@ -72,6 +75,21 @@ def compiled_kit(toolchain: Toolchain, environment: Mapping[str, str], *, flags:
     finally:
         lock.release()
     return Kit(sources, folder)
+
+
+def _lock(folder: Path) -> FileLock:
+    """Lock a folder; wait for a build that compiles the kit there."""
+    is_told = False
+    while True:
+        try:
+            return FileLock(folder)
+        except OSError as error:
+            if error.errno != errno.EBUSY:
+                raise
+        if not is_told:
+            print("-- waiting for another build, which compiles the C++ development kit", file=sys.stderr, flush=True)
+            is_told = True
+        time.sleep(_POLL_S)
 
 
 def link_programs(kit: Kit, packages: Mapping[str, Path], devel: Path) -> None:
