@@ -1,5 +1,8 @@
 #pragma once
 
+#include <ros/console.h>
+#include <ros/package.h>
+
 #include <boost/shared_ptr.hpp>
 #include <class_loader/class_loader.hpp>
 #include <map>

@@ -24,6 +24,7 @@ int main() {
   } catch (const pluginlib::LibraryLoadException& error) {
     std::cout << "error: " << error.what() << std::endl;
   }
+  ROS_INFO("done");  // by what the header brings, as in the tutorial
   std::cout << loader.isClassLoaded("shapes::Square") << loader.unloadLibraryForClass("shapes::Square") << std::endl;
   return 0;
 }
