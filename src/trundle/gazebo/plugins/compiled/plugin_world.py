@@ -69,7 +69,8 @@ class CompiledPlugins:
                 self._host.start_ros(handle, node.master_uri, _NODE)
             number = self._host.load(handle, parent, tag.name, tag.filename, elements_of(tag.node))
         except RuntimeError as error:
-            raise DescriptionError(tag.at, f"plugin {tag.name!r}: {library}: {_first_line(error)}") from None
+            what = f"plugin {tag.name!r}: {library}: {_first_line(error)}"
+            raise DescriptionError(tag.at, what, "compiled-plugin") from None
         self._finish_calls()
         return number
 
@@ -112,7 +113,7 @@ class CompiledPlugins:
             sim.engine.state_written(moved=has_moved)
         for text in self._host.take_warnings():
             named = (at for start, at in self._positions.items() if text.startswith(start))
-            sim.report.warn(next(named, self._at), text)
+            sim.report.warn(next(named, self._at), text, "compiled-plugin")
         for words, numbers in self._host.take_requests():
             self._has_requests = True
             sim.post(lambda sim, words=words, numbers=numbers: self._perform(sim, words, numbers))
@@ -121,7 +122,7 @@ class CompiledPlugins:
         try:
             perform(sim, words, numbers)
         except TrundleError as error:
-            sim.report.warn_error(error, self._at, "a compiled plugin asked for it", subject="plugin")
+            sim.report.warn_error(error, self._at, "a compiled plugin asked for it", "compiled-plugin", subject="plugin")
 
     def _follow_world(self) -> None:
         """Continue with the current world's models and arrays."""
