@@ -59,8 +59,8 @@ class Comparison(RunSamples):
             *((joint, "position") for joint in joints),
         ]
         if self._twists is not None:
-            names += [(model, "velocity") for model in models]
-            names += [(model, "angular velocity") for model in models]
+            names.extend((model, "velocity") for model in models)
+            names.extend((model, "angular velocity") for model in models)
         return names
 
     def differences_at(self, times: _Array, rows: _Array) -> _Array:
