@@ -1,6 +1,7 @@
 """Publisher of a topic: subscriber connections with a queue each."""
 
 import threading
+import time
 from collections import deque
 from collections.abc import Callable, Mapping
 from functools import partial
@@ -133,8 +134,11 @@ class Publisher:
         """Send a checked message at once if possible, else on the loop."""
         if self._direct and self._send_at_once(message):
             return
-        self._lost += len(self._outbox) == self._queue_size
+        is_lost = len(self._outbox) == self._queue_size
         self._outbox.append(message)
+        if is_lost:
+            self._lost += 1
+            time.sleep(0)  # lets the loop have the interpreter: a publisher that never waits would keep it from sending
         if not self._is_flush_scheduled and not self.is_congested:  # `resume` sends the message later
             self._flush_soon()
 
