@@ -1,5 +1,5 @@
-// Sparse symmetric systems of 3 × 3 blocks, by Cholesky decomposition in an order of least fill: nodes of minimum degree
-// first, as in George and Liu, "The Evolution of the Minimum Degree Ordering Algorithm" (1989).
+// Sparse symmetric systems of 3 × 3 blocks, by Cholesky decomposition in an order of least fill: nodes of minimum
+// degree first, as in George and Liu, "The Evolution of the Minimum Degree Ordering Algorithm" (1989).
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@ class BlockCholesky {
 
   // Solves the system; false where it is not positive definite.
   //
-  // diagonal: a block for each row; beside: the blocks (i, j) of the pairs, in their order; right: the right side, which
-  // becomes the solution.
+  // diagonal: a block for each row; beside: the blocks (i, j) of the pairs, in their order; right: the right side,
+  // which becomes the solution.
   bool solve(const std::vector<Block>& diagonal, const std::vector<Block>& beside, std::vector<Triple>& right);
 
  private:

@@ -46,9 +46,10 @@ class Search {
   Search(const ScoreWindow& window, const RangeScan& scan, const PlanarPose& start, const SearchOptions& options)
       : window_(window), options_(options), start_(start) {
     shifts_ = std::clamp(static_cast<int>(std::lround(options.half_width / window.resolution())), 0, kMaxShifts / 2);
-    angles_ = options.angle_step > 0.0
-                  ? std::clamp(static_cast<int>(std::lround(options.half_angle / options.angle_step)), 0, kMaxAngles / 2)
-                  : 0;
+    angles_ =
+        options.angle_step > 0.0
+            ? std::clamp(static_cast<int>(std::lround(options.half_angle / options.angle_step)), 0, kMaxAngles / 2)
+            : 0;
     for (int angle = -angles_; angle <= angles_; ++angle) {
       const Placement place({start.x, start.y, start.yaw + angle * options.angle_step});
       std::vector<Cell>& cells = cells_.emplace_back();

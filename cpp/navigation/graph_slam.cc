@@ -10,11 +10,11 @@ namespace trundle::navigation {
 
 namespace {
 
-constexpr std::size_t kMaxChain = 40;      // scans in the window of a link or a loop
-constexpr std::size_t kMaxLoopChains = 3;  // searched per scan
-constexpr double kMaxReach = 25.0;         // of hits that are matched [m]
-constexpr double kMargin = 0.5;            // of a window beyond the scan [m]
-constexpr int kNodesPerLink = 200;         // a graph is optimized once a link for so many nodes is new
+constexpr std::size_t kMaxChain = 40;                       // scans in the window of a link or a loop
+constexpr std::size_t kMaxLoopChains = 3;                   // searched per scan
+constexpr double kMaxReach = 25.0;                          // of hits that are matched [m]
+constexpr double kMargin = 0.5;                             // of a window beyond the scan [m]
+constexpr int kNodesPerLink = 200;                          // a graph is optimized once a link for so many nodes is new
 constexpr double kRedrawn = 0.002, kRedrawnAngle = 0.0005;  // moves of a node that draw the map anew [m], [rad]
 // A loop may raise the error by what its three numbers may, and by as much for each step as odometry that is wrong by
 // 0.7 of its standard deviation in one direction.
@@ -178,10 +178,8 @@ void GraphSlam::add_node(RangeScan scan) {
     int from = node - 1;
     if (is_lost_) from = nearest(running()).front();
     const PlanarPose& last = graph_.poses[index(from)];
-    const auto information =
-        is_lost_ ? match_information_ : sum(match_information_, odometry_information(since_node_));
-    graph_.constraints.push_back(
-        {from, node, compose(inverse(last), pose_), turned(information, -last.yaw)});
+    const auto information = is_lost_ ? match_information_ : sum(match_information_, odometry_information(since_node_));
+    graph_.constraints.push_back({from, node, compose(inverse(last), pose_), turned(information, -last.yaw)});
   }
   graph_.poses.push_back(pose_);
   centers_.push_back(scan.center());
@@ -269,13 +267,12 @@ void GraphSlam::close_loop(const std::vector<bool>& is_linked) {
     if (++searched > kMaxLoopChains) return;
     const Chain chain = nearest(whole);
     const double half = reach + options_.loop_search.half_width;
-    const ScoreWindow coarse =
-        window(chain, pose_, half, options_.loop_window_resolution, options_.loop_window_smear);
+    const ScoreWindow coarse = window(chain, pose_, half, options_.loop_window_resolution, options_.loop_window_smear);
     ScanMatch match = search(coarse, scan, pose_, options_.loop_search);
     if (match.response < options_.loop_response_coarse) continue;
     const SearchOptions nearby = fine(options_.loop_search, options_.loop_window_resolution);
-    const ScoreWindow near = window(chain, match.pose, reach + nearby.half_width, options_.window_resolution,
-                                    options_.window_smear);
+    const ScoreWindow near =
+        window(chain, match.pose, reach + nearby.half_width, options_.window_resolution, options_.window_smear);
     match = refine(near, scan, search(near, scan, match.pose, nearby).pose);
     if (match.response < options_.loop_response_fine) continue;
     if (!(deviation(match.information) <= options_.loop_deviation)) continue;

@@ -1,6 +1,6 @@
-// Mapping by a graph of poses: each scan is matched with those before it and with older ones nearby, and loops are closed
-// where chains of older scans match. The candidates are chosen as by Konolige et al., "Efficient Sparse Pose Adjustment
-// for 2D Mapping" (2010), in Karto.
+// Mapping by a graph of poses: each scan is matched with those before it and with older ones nearby, and loops are
+// closed where chains of older scans match. The candidates are chosen as by Konolige et al., "Efficient Sparse Pose
+// Adjustment for 2D Mapping" (2010), in Karto.
 #pragma once
 
 #include <array>
@@ -22,22 +22,22 @@ struct GraphOptions {
   double least_time = 0.0;                           // [s]
   double longest_time = 3600.0;                      // after which a scan is used without motion [s]
   bool matches_scans = true;
-  bool matches_all = false;  // scans between the used ones, too: without odometry
-  bool uses_center = true;   // distances between scans are those of their centers, not of the robot
-  int running_scans = 70;    // scans before that a scan is matched with
-  double running_distance = 20.0;                        // of their poses [m]
-  double link_distance = 10.0, link_response = 0.8;      // of scans nearby [m]
+  bool matches_all = false;        // scans between the used ones, too: without odometry
+  bool uses_center = true;         // distances between scans are those of their centers, not of the robot
+  int running_scans = 70;          // scans before that a scan is matched with
+  double running_distance = 20.0;  // of their poses [m]
+  double link_distance = 10.0, link_response = 0.8;  // of scans nearby [m]
   bool closes_loops = true;
-  double loop_distance = 4.0;  // [m]
-  int loop_chain = 10;         // least number of scans
+  double loop_distance = 4.0;   // [m]
+  int loop_chain = 10;          // least number of scans
   double loop_deviation = 0.4;  // highest of a match [m]
   double loop_response_coarse = 0.8, loop_response_fine = 0.8;
   double window_resolution = 0.01, window_smear = 0.03;  // [m]
   SearchOptions search;
   double loop_window_resolution = 0.05, loop_window_smear = 0.03;  // [m]
   SearchOptions loop_search;
-  double linear_noise = 0.1, angular_noise = 0.1;      // of the odometry, as parts of the motion
-  double turn_per_distance = 0.05;                     // and of the heading [rad / m]
+  double linear_noise = 0.1, angular_noise = 0.1;                  // of the odometry, as parts of the motion
+  double turn_per_distance = 0.05;                                 // and of the heading [rad / m]
   double still_linear_noise = 0.005, still_angular_noise = 0.003;  // and without motion [m], [rad]
   bool extends_map = true;  // false: scans are matched with the map, and forgotten
 };
@@ -102,7 +102,7 @@ class GraphSlam {
   GraphOptions options_;
   PoseGraph graph_;
   std::vector<RangeScan> scans_;
-  std::vector<Point> centers_;  // on the robot
+  std::vector<Point> centers_;   // on the robot
   PlanarPose pose_, used_pose_;  // at the last scan, and at the last one used
   PlanarPose correction_;
   Motion since_match_, since_node_;

@@ -37,8 +37,7 @@ template <typename Number, typename Array, std::size_t dimensions>
 Array owned(std::vector<Number> values, const std::array<std::size_t, dimensions>& shape) {
   auto kept = std::make_unique<std::vector<Number>>(std::move(values));
   Number* data = kept->data();
-  nb::capsule owner(kept.release(),
-                    [](void* pointer) noexcept { delete static_cast<std::vector<Number>*>(pointer); });
+  nb::capsule owner(kept.release(), [](void* pointer) noexcept { delete static_cast<std::vector<Number>*>(pointer); });
   return Array(data, dimensions, shape.data(), owner);
 }
 
@@ -231,7 +230,8 @@ void bind_graph_slam(nb::module_& module) {
   nb::class_<GraphSlam>(module, "GraphSlam")
       .def("__init__", &make_slam, "options"_a)
       .def("process", &process, "motion"_a, "time_s"_a, "origin"_a, "hits"_a, "misses"_a)
-      .def("set_pose", [](GraphSlam& slam, const Triple3& pose) { slam.set_pose(pose_of(pose)); }, "pose"_a)
+      .def(
+          "set_pose", [](GraphSlam& slam, const Triple3& pose) { slam.set_pose(pose_of(pose)); }, "pose"_a)
       .def("seen", &seen, nb::call_guard<nb::gil_scoped_release>())
       .def("draw", &draw, nb::kw_only(), "first_column"_a, "first_row"_a, "width"_a, "height"_a, "occupied_threshold"_a)
       .def("poses", &poses)

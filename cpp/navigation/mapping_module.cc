@@ -1,4 +1,4 @@
-// The Python module `_mapping`: gmapping's particle filter, hector_mapping's pyramid, the pose graph of Karto and others.
+// The Python module `_mapping`: gmapping's particle filter, hector_mapping's pyramid, the mapper by a pose graph.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/tuple.h>

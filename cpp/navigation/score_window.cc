@@ -7,11 +7,11 @@ namespace trundle::navigation {
 
 namespace {
 
-constexpr int kMaxSize = 4096;         // cells along a side
-constexpr double kReach = 2.5;         // of the kernel, in standard deviations
-constexpr double kMaxSmear = 16.0;     // [cells]
-constexpr int kParts = 4;              // of a cell along an axis: places of hits are told apart
-constexpr int kShift = 2;              // a level's cells are 1 << kShift as long as those below
+constexpr int kMaxSize = 4096;      // cells along a side
+constexpr double kReach = 2.5;      // of the kernel, in standard deviations
+constexpr double kMaxSmear = 16.0;  // [cells]
+constexpr int kParts = 4;           // of a cell along an axis: places of hits are told apart
+constexpr int kShift = 2;           // a level's cells are 1 << kShift as long as those below
 constexpr double kHighest = 255.0;
 constexpr double kFar = 1e8;  // beyond every window [cells]
 
@@ -20,7 +20,8 @@ int cell_of(double place) { return static_cast<int>(std::floor(std::min(std::max
 }  // namespace
 
 ScoreWindow::ScoreWindow(const Point& center, double half_width, double resolution, double smear)
-    : resolution_(std::max(resolution, 2.0 * half_width / kMaxSize)), smear_(std::clamp(smear, 0.5 * resolution_, kMaxSmear * resolution_)) {
+    : resolution_(std::max(resolution, 2.0 * half_width / kMaxSize)),
+      smear_(std::clamp(smear, 0.5 * resolution_, kMaxSmear * resolution_)) {
   const int half = std::min(static_cast<int>(std::ceil(half_width / resolution_)), kMaxSize / 2);
   // Whole cells from the origin on, so that windows of the same place have the same cells.
   corner_ = {(std::floor(center.x / resolution_) - half) * resolution_,
@@ -90,8 +91,8 @@ void ScoreWindow::finish() {
         std::uint8_t& value = level.values[row * size + column];
         const std::size_t right = column + 1 < size ? 1 : 0, above = row + 1 < size ? size : 0;
         const std::size_t cell = row * size + column;
-        value = std::max({value, level.values[cell + right], level.values[cell + above],
-                          level.values[cell + above + right]});
+        value = std::max(
+            {value, level.values[cell + right], level.values[cell + above], level.values[cell + above + right]});
       }
   }
 }

@@ -33,7 +33,8 @@ class ScoreWindow {
   int row_of(double y) const;
   double resolution() const { return resolution_; }
 
-  // Highest value, 0 to 255, in the cells of a level: those from column << 2 level to (column + 2) << 2 level, and rows.
+  // Highest value, 0 to 255, in the cells of a level: those from column << 2 level to (column + 2) << 2 level, and
+  // rows.
   int highest(int level, int column, int row) const {
     const Level& cells = levels_[static_cast<std::size_t>(level)];
     if (column < 0 || row < 0 || column >= cells.size || row >= cells.size) return 0;
@@ -52,9 +53,9 @@ class ScoreWindow {
   double resolution_, smear_;  // [m]
   Point corner_{0.0, 0.0};
   std::vector<Level> levels_;
-  int reach_;                         // of the kernels [cells]
+  int reach_;                          // of the kernels [cells]
   std::vector<std::uint8_t> kernels_;  // of a hit in each part of a cell
-  std::vector<std::uint16_t> drawn_;  // a bit for each part of each cell: a kernel was drawn there
+  std::vector<std::uint16_t> drawn_;   // a bit for each part of each cell: a kernel was drawn there
 };
 
 }  // namespace trundle::navigation

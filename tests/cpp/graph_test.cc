@@ -74,7 +74,8 @@ TEST_CASE("a sparse system of blocks is solved as the whole one") {
   std::vector<Triple> product(5, Triple{});
   const auto add = [&](std::size_t row, const Block& block, std::size_t column, bool is_transposed) {
     for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) product[row][i] += block[is_transposed ? 3 * j + i : 3 * i + j] * x[column][j];
+      for (std::size_t j = 0; j < 3; ++j)
+        product[row][i] += block[is_transposed ? 3 * j + i : 3 * i + j] * x[column][j];
   };
   for (std::size_t i = 0; i < 5; ++i) add(i, diagonal[i], i, false);
   for (std::size_t k = 0; k < pairs.size(); ++k) {

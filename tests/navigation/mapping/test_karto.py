@@ -70,6 +70,7 @@ def test_slam_karto_maps_and_corrects_the_odometry(graph) -> None:
     graph.start("slam_karto/slam_karto", map_update_interval=0.0, vis_publish_period=0.05, solver_type="SPASolver")
     robot = Robot(graph)
 
+    robot.drive(1.0, 1.0, lambda: maps)
     robot.drive(1.0, 2.0, lambda: len(maps) >= 4 and metadata and markers)
 
     def offset() -> tuple[float, ...]:
@@ -112,6 +113,7 @@ def test_slam_toolbox_saves_its_map_and_graph_and_goes_on_from_it(graph, tmp_pat
     graph.start("slam_toolbox/async_slam_toolbox_node", name="/slam_toolbox", map_update_interval=0.0, **TOOLBOX)
     robot = Robot(graph)
 
+    robot.drive(1.0, 1.0, lambda: maps)
     robot.drive(1.0, 2.5, lambda: len(maps) >= 3 and poses and poses[-1].pose.pose.position.x > 2.3)
     graph.call("/slam_toolbox/save_map", "slam_toolbox_msgs/SaveMap", name={"data": str(tmp_path / "house")})
     graph.call("/slam_toolbox/serialize_map", "slam_toolbox_msgs/SerializePoseGraph", filename=str(tmp_path / "graph"))
@@ -152,7 +154,8 @@ def test_localization_finds_the_robot_in_a_saved_graph_that_it_does_not_change(g
     poses = graph.listen("/slam_toolbox/pose", "geometry_msgs/PoseWithCovarianceStamped")
     graph.start("slam_toolbox/sync_slam_toolbox_node", name="/slam_toolbox", **TOOLBOX)
     robot = Robot(graph)
-    robot.drive(1.0, 2.5, lambda: poses and poses[-1].pose.pose.position.x > 2.3)
+    robot.drive(1.0, 1.0, lambda: poses)
+    robot.drive(1.0, 2.5, lambda: poses[-1].pose.pose.position.x > 2.3)
     file = str(tmp_path / "graph")
     graph.call("/slam_toolbox/serialize_map", "slam_toolbox_msgs/SerializePoseGraph", filename=file)
     graph.stop()
