@@ -66,8 +66,8 @@ def test_a_nodelets_container_command_has_its_name_and_remappings(tmp_path: Path
 
 def test_a_nodes_container_command_has_its_name_and_remappings(tmp_path: Path) -> None:
     """Under another name it would not find the launch's private parameters."""
-    node = '<node pkg="slam_karto" type="slam_karto" name="planner" ns="r1" args="-v"><remap from="a" to="b"/></node>'
+    node = '<node pkg="octomap_server" type="octomap_server_node" name="planner" ns="r1" args="-v"><remap from="a" to="b"/></node>'
 
     (warning,) = check_launch(tmp_path, node).report.warnings
 
-    assert "rosrun slam_karto slam_karto -v a:=b __name:=planner __ns:=/r1" in warning
+    assert "rosrun octomap_server octomap_server_node -v a:=b __name:=planner __ns:=/r1" in warning

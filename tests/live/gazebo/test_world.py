@@ -343,7 +343,7 @@ def test_a_second_server_is_refused_and_leaves_the_first_alone(gazebo: Gazebo, c
     second = Node("/second", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
 
     assert gazebo.loop.run(GazeboServer(second, [], gazebo.host).run(), timeout_s=PATIENCE_S) == 1
-    assert "a simulation runs already" in capsys.readouterr().err
+    assert "a simulation is already running" in capsys.readouterr().err
     gazebo.loop.run(second.shutdown())
     assert gazebo.call("get_world_properties", "gazebo_msgs/GetWorldProperties").success
 

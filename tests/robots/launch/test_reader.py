@@ -350,7 +350,7 @@ def test_an_included_file_sees_only_the_arguments_it_is_passed(tmp_path: Path) -
     assert {p.name: p.value for p in plan.params} == {"/s/r": "9x"}
     assert plan.files == (tmp_path / "top.launch", tmp_path / "sub.launch")
 
-    wrong = r"sub\.launch:1: error: the argument 'q' is required .*; included at .*top\.launch:1$"
+    wrong = r"sub\.launch:1: error: the argument 'q' is required .*; included at .*top\.launch:1 \[launch-arg\]$"
     with pytest.raises(DescriptionError, match=wrong):
         included(tmp_path, '<arg name="q" value="1"/><include file="$(dirname)/sub.launch"/>')
 

@@ -20,6 +20,6 @@ from .package_finder import (
 from .ros2 import refuse_ros2 as refuse_ros2, refuse_ros2_language as refuse_ros2_language
 from .ros_packages import fetched_folder as fetched_folder
 from .rule_exports import exported_rules as exported_rules
-from .shipped_files import PLANS as PLANS, ShippedFile as ShippedFile, shipped_files as shipped_files
+from .shipped import PLANS as PLANS, ShippedFile as ShippedFile, shipped_files as shipped_files
 from .stock import STOCK as STOCK, STOCK_WITH_FILES as STOCK_WITH_FILES
 from .workspace import build_prefixes as build_prefixes, program_folders as program_folders

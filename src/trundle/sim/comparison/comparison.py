@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from .difference import Difference, Quantity, differences, listed
 from .run_samples import RunSamples
 from .trajectory import Trajectory, interpolation
-from .velocities import velocities
+from .finite_differences import velocities
 
 _Array = NDArray[np.float64]
 
