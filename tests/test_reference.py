@@ -155,7 +155,7 @@ def test_the_names_of_the_packages_have_an_example() -> None:
 
 
 def test_the_reference_has_all_names_of_gym() -> None:
-    assert set(_API["PACKAGES"]["trundle.gym"].split()) == set(trundle.gym.__all__)
+    assert set(_API["PACKAGES"]["trundle.gym"].split()) == set(getattr(trundle.gym, "__all__"))  # noqa: B009  # the stub has no `__all__`
 
 
 def test_errors_are_in_the_docstrings() -> None:
