@@ -125,3 +125,37 @@ def test_a_robot_that_is_hidden_or_gone_is_told_until_it_is_seen(
         tab.get_by_role("button", name="Follow", exact=True).click()
         told.wait_for(state="detached")
     context.close()
+
+
+@pytest.mark.parametrize(("width", "height"), [(720, 900), (390, 844)])
+def test_the_view_follows_a_robot_that_is_driven_behind_the_controls(
+    chromium: Any, url: str, width: int, height: int
+) -> None:
+    """The hand on the disc cannot press a button."""
+    context = chromium.new_context(viewport={"width": width, "height": height})
+    tab = context.new_page()
+    tab.set_default_timeout(PATIENCE_MS)
+    with Mover(url) as mover:
+        mover.put(*_spot(0.0))
+        tab.goto(url)
+        _wait_for_the_scene(tab)
+        box = tab.locator(".disc").bounding_box()
+        tab.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+        tab.mouse.down()
+        tab.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2 - 20)
+        tab.locator(".disc .ring:not(.rest)").wait_for()
+        sofa = {"x": width * 0.6, "y": height * 0.3, "width": 80, "height": 60}
+        before = tab.screenshot(clip=sofa)
+        mover.put(*_spot(2.5))
+        for _ in range(120):
+            if tab.screenshot(clip=sofa) != before:
+                break
+            tab.wait_for_timeout(500)
+        else:
+            raise AssertionError("the camera stays")
+        tab.mouse.up()
+        mover.put(*_spot(7.0))
+        _wait_for_the_scene(tab)
+        assert tab.locator(".notice .said").filter(has_text="rp2w").count() == 0
+        mover.put(*_spot(0.0))
+    context.close()

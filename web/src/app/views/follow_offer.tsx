@@ -1,4 +1,7 @@
-/** Offers to follow the robot when it has left a view that nobody moves, or drives behind the controls over it. */
+/**
+ * Offers to follow the robot when it has left a view that nobody moves, or drives behind the controls over it; whoever
+ * drives it there has no hand free, and the view follows if nobody has chosen it.
+ */
 
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
@@ -36,7 +39,8 @@ export function FollowOffer({ shell }: { readonly shell: Shell }): JSX.Element |
   useEffect(
     () =>
       watchRobot(page, (now, isNew) => {
-        if (isNew || unseen.value !== null) unseen.value = now;
+        if (now !== null && isNew && isDriven(page)) page.views.follow(now.target);
+        else if (isNew || unseen.value !== null) unseen.value = now;
       }),
     [page],
   );
@@ -62,6 +66,11 @@ export function FollowOffer({ shell }: { readonly shell: Shell }): JSX.Element |
       <Button icon="close" label="Do not follow" onClick={close} />
     </div>
   );
+}
+
+/** True while the person here drives, in a view that nobody has chosen. */
+function isDriven({ drive, views }: Page): boolean {
+  return drive.command.peek() !== null && !views.active.peek().isChosen.peek();
 }
 
 /** Tell where the robot is if it is not seen, at first and while it stays so, and when it is seen again (null). */
