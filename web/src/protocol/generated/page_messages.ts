@@ -560,8 +560,8 @@ export interface Differences {
   /** [s] */
   readonly time: number;
   /**
-   * Models or frames, the farthest first, each by distance and angle, of recorded runs also by velocities; then joints
-   * or numbers, the largest first.
+   * Models or frames, the farthest first, each by distance and angle, of recorded runs also by velocities; then
+   * joints or numbers, the largest first.
    */
   readonly rows: readonly Difference[];
 }
