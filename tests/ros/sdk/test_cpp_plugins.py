@@ -64,7 +64,7 @@ def test_a_manager_loads_and_unloads_nodelets(running: Running, graph: Graph, me
     ]  # fmt: skip
     first, second = _heard(node, "/said_by_first"), _heard(node, "/said_by_second")
     _ask(node, messages, "/in", first)
-    until(lambda: second)
+    _ask(node, messages, "/in", second)
     assert first[0] == "echo word: hello"
     assert second[0] == "two word: hello"
 
