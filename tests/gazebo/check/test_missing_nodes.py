@@ -66,7 +66,8 @@ def test_a_nodelets_container_command_has_its_name_and_remappings(tmp_path: Path
 
 def test_a_nodes_container_command_has_its_name_and_remappings(tmp_path: Path) -> None:
     """Under another name it would not find the launch's private parameters."""
-    node = '<node pkg="octomap_server" type="octomap_server_node" name="planner" ns="r1" args="-v"><remap from="a" to="b"/></node>'
+    program = 'pkg="octomap_server" type="octomap_server_node"'
+    node = f'<node {program} name="planner" ns="r1" args="-v"><remap from="a" to="b"/></node>'
 
     (warning,) = check_launch(tmp_path, node).report.warnings
 

@@ -4,9 +4,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .difference import Difference, Quantity, differences, listed
+from .finite_differences import velocities
 from .run_samples import RunSamples
 from .trajectory import Trajectory, interpolation
-from .finite_differences import velocities
 
 _Array = NDArray[np.float64]
 

@@ -122,7 +122,9 @@ class CompiledPlugins:
         try:
             perform(sim, words, numbers)
         except TrundleError as error:
-            sim.report.warn_error(error, self._at, "a compiled plugin asked for it", "compiled-plugin", subject="plugin")
+            sim.report.warn_error(
+                error, self._at, "a compiled plugin asked for it", "compiled-plugin", subject="plugin"
+            )
 
     def _follow_world(self) -> None:
         """Continue with the current world's models and arrays."""
