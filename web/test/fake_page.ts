@@ -15,13 +15,12 @@ import type { FrameTree } from "../src/frames/frame_tree";
 import { NoTransform } from "../src/frames/transform";
 import type { SceneView } from "../src/scene/scene_view";
 import type { JointStates, Reference, SimulatedWorld } from "../src/scene/simulated_world";
-import type { PaneLayout } from "../src/scene/panes/pane_layout";
-import type { ViewController, ViewPane, Views } from "../src/scene/view_controller";
 import type { Tool, ToolBox } from "../src/page/tool";
 import { AXIS_RGB } from "../src/shapes/axes";
 import { GraphNames } from "../src/protocol/graph_names";
 import { FakeConnection } from "./fake_connection";
 import { FakeDisplayList } from "./fake_displays";
+import { FakeViews } from "./fake_views";
 import { GhostShapes } from "../src/scene/world/ghost_shapes";
 
 export const SESSION: PageSession = {
@@ -152,88 +151,6 @@ export class FakeScene implements SceneView {
   addLabel(anchor: Object3D, text: string): ReturnType<SceneView["addLabel"]> {
     return { anchor, text, detail: "", full: "", rank: null, isQuiet: false, reach: 0, remove: () => undefined };
   }
-}
-
-export class FakeViews implements Views {
-  readonly current = signal(fakeView("rviz/Orbit"));
-  readonly classes = ["rviz/Orbit", "rviz/XYOrbit", "rviz/TopDownOrtho", "rviz/FPS", "rviz/ThirdPersonFollower"];
-  readonly saved = signal<readonly ViewController[]>([]);
-  readonly framed: Box3[] = [];
-  readonly layout = signal<PaneLayout>("one");
-  readonly pane = fakePane(this.current, this.framed);
-  readonly active = signal<ViewPane>(this.pane);
-  readonly panes = signal<readonly ViewPane[]>([this.pane]);
-  /** Show one more pane. */
-  addPane(): FakePane {
-    const pane = fakePane(signal(fakeView("rviz/Orbit")), this.framed);
-    this.panes.value = [...this.panes.value, pane];
-    return pane;
-  }
-  onFileLayout: (layout: PaneLayout) => void = (layout) => {
-    this.layout.value = layout;
-  };
-  activate(pane: ViewPane): void {
-    this.active.value = pane;
-  }
-  stepPane(): void {
-    // there is one
-  }
-  use(className: string): void {
-    this.current.value = fakeView(className);
-  }
-  useSaved(view: ViewController): void {
-    this.current.value = view;
-  }
-  copyCurrent(name: string): ViewController {
-    return { ...this.current.value, name: signal(name), save: () => ({ Name: name }) };
-  }
-  frame(box: Box3): void {
-    this.framed.push(box);
-  }
-  focus(): void {
-    // nothing is drawn
-  }
-  lookFrom(): void {
-    // nothing is drawn
-  }
-  toggleProjection(): void {
-    // nothing is drawn
-  }
-  lookThrough(): void {
-    // nothing is drawn
-  }
-  ride(): void {
-    // nothing is drawn
-  }
-  follow(_target: string | null): void {
-    // nothing is drawn
-  }
-  save(): Record<string, never> {
-    return {};
-  }
-  load(): string[] {
-    return [];
-  }
-}
-
-type FakePane = ReturnType<typeof fakePane>;
-
-/** A pane with a view; `framed` receives what it frames. */
-export function fakePane(current: ViewPane["current"], framed: Box3[] = []) {
-  const place = { area: { left: 0, top: 0, width: 1, height: 1 }, insets: { left: 0, right: 0, top: 0, bottom: 0 } };
-  return {
-    current,
-    place: signal(place),
-    free: signal({ left: 0, top: 0, width: 1, height: 1 }),
-    isChosen: signal(false),
-    frameFirst: (box) => void framed.push(box.clone()),
-    cameraFrame: signal(null),
-    load: (yaml) => current.peek().load(yaml),
-  } satisfies ViewPane;
-}
-
-function fakeView(className: string): ViewController {
-  return { className, name: signal(""), properties: [], save: () => ({}), load: () => [] };
 }
 
 const TOOLS: readonly (readonly [string, string, string, string])[] = [

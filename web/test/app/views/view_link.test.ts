@@ -4,7 +4,7 @@ import { expect, test } from "vitest";
 import { linkedView, linkTo, shareableOrigins, showLinkedView } from "../../../src/app/views/view_link";
 import type { PaneLayout } from "../../../src/scene/panes/pane_layout";
 import { Orbit } from "../../../src/scene/views/orbit";
-import { fakePane, FakeViews } from "../../fake_page";
+import { fakePane, FakeViews } from "../../fake_views";
 
 test("a link restores its view", () => {
   const view = new Orbit();
