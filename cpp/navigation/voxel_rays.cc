@@ -25,13 +25,13 @@ void clear_voxel_ray(const VoxelColumns& voxels, const std::array<double, 3>& fr
   std::array<double, 3> next{}, per{};
   int left = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double way = to[axis] - from[axis];
+    const double distance = to[axis] - from[axis];
     cell[axis] = static_cast<int>(std::floor(from[axis]));
     last[axis] = static_cast<int>(std::floor(to[axis]));
-    step[axis] = way < 0 ? -1 : 1;
-    per[axis] = way == 0 ? std::numeric_limits<double>::infinity() : std::fabs(1 / way);
-    const double edge = way < 0 ? from[axis] - cell[axis] : cell[axis] + 1 - from[axis];
-    next[axis] = way == 0 ? per[axis] : edge * per[axis];
+    step[axis] = distance < 0 ? -1 : 1;
+    per[axis] = distance == 0 ? std::numeric_limits<double>::infinity() : std::fabs(1 / distance);
+    const double edge = distance < 0 ? from[axis] - cell[axis] : cell[axis] + 1 - from[axis];
+    next[axis] = distance == 0 ? per[axis] : edge * per[axis];
     left += std::abs(last[axis] - cell[axis]);
   }
   for (; left >= 0; --left) {

@@ -175,14 +175,14 @@ std::vector<std::array<double, 2>> descend(const float* potential, GridShape sha
   if (descent.at(from[0], from[1]) >= kUnreached) return {};
   const std::array<double, 2> end{static_cast<double>(to[0]), static_cast<double>(to[1])};
   std::array<double, 2> point{static_cast<double>(from[0]), static_cast<double>(from[1])};
-  std::vector<std::array<double, 2>> way{point};
+  std::vector<std::array<double, 2>> path{point};
   for (std::size_t i = 0; i < 4 * shape.size(); ++i) {
     if (std::hypot(point[0] - end[0], point[1] - end[1]) <= 1) {
-      way.push_back(end);
-      return way;
+      path.push_back(end);
+      return path;
     }
     if (!descent.step(point)) return {};
-    way.push_back(point);
+    path.push_back(point);
   }
   return {};
 }

@@ -59,7 +59,7 @@ struct ServiceServer::Impl {
   }
 };
 
-struct NodeHandle::Made {
+struct NodeHandle::Endpoints {
   std::mutex mutex;
   std::vector<std::function<bool(bool)>> parts;  // ends a part, if asked to; false once it is gone
   std::atomic<bool> is_shut_down{false};
@@ -131,7 +131,7 @@ void NodeHandle::construct(const std::string& ns) {
     ROS_BREAK();
   }
   namespace_ = resolveName(ns, true);
-  made_ = boost::make_shared<Made>();
+  endpoints_ = boost::make_shared<Endpoints>();
   bool starts = false;
   {
     const std::lock_guard<std::mutex> lock(counting);
@@ -181,7 +181,7 @@ Publisher NodeHandle::advertise(AdvertiseOptions& options) {
   impl->publication = publication;
   impl->callbacks = callbacks;
   impl->topic = options.topic;
-  made_->add(impl);
+  endpoints_->add(impl);
   return Publisher(impl);
 }
 
@@ -194,7 +194,7 @@ Subscriber NodeHandle::subscribe(SubscribeOptions& options) {
   impl->is_ended = true;  // nothing to end until subscribe returns: it may throw
   impl->subscription = topics::subscribe(options);
   impl->is_ended = false;
-  made_->add(impl);
+  endpoints_->add(impl);
   return Subscriber(impl);
 }
 
@@ -206,7 +206,7 @@ ServiceServer NodeHandle::advertiseService(AdvertiseServiceOptions& options) {
   const auto impl = boost::make_shared<ServiceServer::Impl>();
   impl->offer = offer;
   impl->service = options.service;
-  made_->add(impl);
+  endpoints_->add(impl);
   return ServiceServer(impl);
 }
 
@@ -234,16 +234,16 @@ SteadyTimer NodeHandle::createSteadyTimer(SteadyTimerOptions& options) const {
 }
 
 void NodeHandle::shutdown() {
-  made_->is_shut_down = true;
+  endpoints_->is_shut_down = true;
   std::vector<std::function<bool(bool)>> parts;
   {
-    const std::lock_guard<std::mutex> lock(made_->mutex);
-    parts.swap(made_->parts);
+    const std::lock_guard<std::mutex> lock(endpoints_->mutex);
+    parts.swap(endpoints_->parts);
   }
   for (const auto& part : parts) part(true);
 }
 
-bool NodeHandle::ok() const { return ros::ok() && !made_->is_shut_down; }
+bool NodeHandle::ok() const { return ros::ok() && !endpoints_->is_shut_down; }
 
 // Handles
 

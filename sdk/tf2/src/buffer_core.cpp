@@ -143,25 +143,25 @@ bool BufferCore::find(const Frame& frame, const std::string& name, const ros::Ti
   return true;
 }
 
-BufferCore::Way BufferCore::wayUp(const std::string& from, const ros::Time& time, const std::string& until) const {
-  Way way;
+BufferCore::Chain BufferCore::chainUp(const std::string& from, const ros::Time& time, const std::string& until) const {
+  Chain chain;
   std::string name = from;
   Transform transform = Transform::getIdentity();
-  way.frames.emplace_back(name, transform);
+  chain.frames.emplace_back(name, transform);
   for (int depth = 0; depth < kMaxDepth && name != until; ++depth) {
     const auto frame = frames_.find(name);
     Sample sample;
-    if (frame == frames_.end() || !find(frame->second, name, time, sample, way.fault)) break;
+    if (frame == frames_.end() || !find(frame->second, name, time, sample, chain.fault)) break;
     transform = Transform(sample.rotation, sample.origin) * transform;
     name = sample.parent;
-    way.frames.emplace_back(name, transform);
+    chain.frames.emplace_back(name, transform);
   }
-  return way;
+  return chain;
 }
 
 std::vector<std::string> BufferCore::ancestors(const std::string& frame) const {
   std::vector<std::string> names;
-  for (const auto& entry : wayUp(frame, ros::Time(), "").frames) names.push_back(entry.first);
+  for (const auto& entry : chainUp(frame, ros::Time(), "").frames) names.push_back(entry.first);
   return names;
 }
 
@@ -197,7 +197,7 @@ Transform BufferCore::lookUp(const std::string& target, const std::string& sourc
     return Transform::getIdentity();
   }
   if (time.isZero()) time = latestCommon(target, source);
-  const Way a = wayUp(target, time, source), b = wayUp(source, time, target);
+  const Chain a = chainUp(target, time, source), b = chainUp(source, time, target);
   for (const auto& left : a.frames)
     for (const auto& right : b.frames)
       if (left.first == right.first) return left.second.inverse() * right.second;

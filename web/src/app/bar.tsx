@@ -4,7 +4,7 @@ import type { JSX } from "preact";
 import { useRef } from "preact/hooks";
 
 import { Button } from "../theme/button";
-import { FittingPart, More, useFittingRow, type GivenItem } from "../theme/fitting_row";
+import { FittingPart, More, useFittingRow, type HiddenItem } from "../theme/fitting_row";
 import { clock, count } from "../theme/format";
 import { Icon } from "../theme/icons";
 import { MenuButton } from "../theme/menu";
@@ -12,7 +12,7 @@ import type { MenuItem } from "../theme/menu_list";
 import { Name } from "../theme/name";
 import { Clock, speedItems } from "./clock";
 import { ConnectionChip } from "./connection_chip";
-import { canControl, LOOKS_ONLY } from "../page/looking";
+import { canControl, VIEW_ONLY } from "../page/view_only";
 import { colorOf, nameOf } from "../page/people";
 import { simulates } from "./simulation_commands";
 import type { Shell } from "./shell";
@@ -67,7 +67,7 @@ function WideBar({ shell }: { readonly shell: Shell }): JSX.Element {
       <PeopleHere shell={shell} />
       <ConnectionChip shell={shell} />
       <Corner shell={shell} />
-      <More row={row} label="More" items={() => givenItems(shell)} />
+      <More row={row} label="More" items={() => hiddenItems(shell)} />
     </header>
   );
 }
@@ -168,7 +168,7 @@ function resetItems({ commands }: Shell): readonly MenuItem[] {
 
 function ViewOnly(): JSX.Element {
   return (
-    <span class="looking" data-tip={`${LOOKS_ONLY} Others control time, robots, topics and the world.`} tabIndex={0}>
+    <span class="looking" data-tip={`${VIEW_ONLY} Others control time, robots, topics and the world.`} tabIndex={0}>
       <Icon name="eye" />
       View only
     </span>
@@ -276,7 +276,7 @@ function themeItem({ page: { theme } }: Shell): { readonly title: string; readon
 }
 
 /** Menu items for the controls of the wide bar that have no room. */
-function givenItems(shell: Shell): readonly GivenItem[] {
+function hiddenItems(shell: Shell): readonly HiddenItem[] {
   const { dialog, page } = shell;
   const recording = recordingOf(shell);
   const speed = page.world.state.peek()?.speed ?? null;

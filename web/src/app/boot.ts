@@ -82,7 +82,7 @@ export function boot(root: HTMLElement, json: string): void {
     hovered,
     goals,
     editor,
-    looksOnly: first.view_only,
+    viewOnly: first.view_only,
   });
   const displays: DisplayStore = new DisplayStore({
     connection: view,

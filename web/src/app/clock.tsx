@@ -8,7 +8,7 @@ import { fixed, rosTime } from "../theme/format";
 import { MenuButton } from "../theme/menu";
 import type { MenuItem } from "../theme/menu_list";
 import { StatusShape } from "../theme/status_shape";
-import { canControl } from "../page/looking";
+import { canControl } from "../page/view_only";
 import { simulates } from "./simulation_commands";
 import type { Shell } from "./shell";
 

@@ -3,7 +3,7 @@
 import { sentence } from "../panels/use";
 import { read } from "../protocol/check";
 import { uploadedRecording } from "../protocol/generated/page_checks";
-import { canControl } from "../page/looking";
+import { canControl } from "../page/view_only";
 import type { Command, Page } from "../page/page";
 import { postForm } from "./post_form";
 import type { Shell } from "./shell";

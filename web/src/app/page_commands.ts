@@ -3,7 +3,7 @@
 import { toggleFirstPerson } from "./views/first_person";
 import { toggleFollowing } from "./views/following";
 import { frameSelection } from "./views/framing";
-import { canControl } from "../page/looking";
+import { canControl } from "../page/view_only";
 import { chooseRviz } from "./dialogs/open_files";
 import type { Command } from "../page/page";
 import { download, rvizFile, save } from "./displays/rviz_foot";

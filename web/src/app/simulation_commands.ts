@@ -1,6 +1,6 @@
 /** Commands of the simulation's clock. */
 
-import { canControl } from "../page/looking";
+import { canControl } from "../page/view_only";
 import type { Command, Page } from "../page/page";
 import { saveReplay } from "./dialogs/save_replay";
 import type { Shell } from "./shell";

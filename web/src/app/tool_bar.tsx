@@ -10,7 +10,7 @@ import { MenuButton } from "../theme/menu";
 import type { MenuItem } from "../theme/menu_list";
 import type { Tool } from "../page/tool";
 import { isWatcher } from "../protocol/watchers";
-import { canControl } from "../page/looking";
+import { canControl } from "../page/view_only";
 import type { Command } from "../page/page";
 import type { Shell } from "./shell";
 

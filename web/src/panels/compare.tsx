@@ -3,7 +3,7 @@
 import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 
-import { canControl } from "../page/looking";
+import { canControl } from "../page/view_only";
 import type { Page } from "../page/page";
 import type { ReferenceInfo } from "../protocol/generated/page_messages";
 import { Button } from "../theme/button";

@@ -2,7 +2,7 @@
 
 import type { JSX } from "preact";
 
-import { canControl, Controls } from "../page/looking";
+import { canControl, Controls } from "../page/view_only";
 import { Button } from "../theme/button";
 import { fixed } from "../theme/format";
 import { Name } from "../theme/name";

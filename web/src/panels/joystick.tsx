@@ -3,7 +3,7 @@
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 
-import { canControl, LOOKS_ONLY } from "../page/looking";
+import { canControl, VIEW_ONLY } from "../page/view_only";
 import { fixed } from "../theme/format";
 import { SteadyNumber } from "../theme/steady_number";
 import { AXIS_NAMES, BUTTON_NAMES } from "./joystick/gamepad_axes";
@@ -27,7 +27,7 @@ function Joystick({ page }: PanelProps): JSX.Element {
       state.stop();
     };
   }, [state, isOffered]);
-  if (!canControl(page)) return <div class="empty">{LOOKS_ONLY}</div>;
+  if (!canControl(page)) return <div class="empty">{VIEW_ONLY}</div>;
   if (!isOffered) return <div class="empty">No node reads a joystick: start joy's joy_node.</div>;
   return (
     <div class="scroll">

@@ -3,7 +3,7 @@
 import type { ComponentChildren, JSX } from "preact";
 
 import type { QueuedGoal } from "../page/goal_queue";
-import { canControl, LOOKS_ONLY } from "../page/looking";
+import { canControl, VIEW_ONLY } from "../page/view_only";
 import type { Page } from "../page/page";
 import type { PoseWithCovarianceStamped } from "../protocol/generated/ros_messages";
 import { Button } from "../theme/button";
@@ -39,7 +39,7 @@ function Navigation({ page }: PanelProps): JSX.Element {
     <Split head={<Head page={page} />} detail={<Detail page={page} />}>
       {goals.length === 0 && (
         <div class="empty">
-          {canControl(page) ? "“Add goals”, then press at each place and drag in its direction." : LOOKS_ONLY}
+          {canControl(page) ? "“Add goals”, then press at each place and drag in its direction." : VIEW_ONLY}
         </div>
       )}
       {goals.length > 0 && <Goals page={page} goals={goals} />}

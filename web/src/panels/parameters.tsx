@@ -3,7 +3,7 @@
 import { signal } from "@preact/signals";
 import type { JSX } from "preact";
 
-import { Controls } from "../page/looking";
+import { Controls } from "../page/view_only";
 import type { Page } from "../page/page";
 import type { ParameterValue } from "../protocol/connection";
 import { Checkbox } from "../theme/checkbox";

@@ -4,7 +4,7 @@ import { signal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect, useState } from "preact/hooks";
 
-import { Controls } from "../page/looking";
+import { Controls } from "../page/view_only";
 import { Checkbox } from "../theme/checkbox";
 import { plain } from "../theme/format";
 import { NumberField } from "../theme/number_field";

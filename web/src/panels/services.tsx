@@ -3,7 +3,7 @@
 import { computed, signal } from "@preact/signals";
 import type { JSX } from "preact";
 
-import { Controls } from "../page/looking";
+import { Controls } from "../page/view_only";
 import type { Connection, ServiceInfo } from "../protocol/connection";
 import type { RosMessage } from "../protocol/ros_types";
 import { Button } from "../theme/button";

@@ -4,7 +4,7 @@ import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 
 import type { Drive, DriveInput } from "../page/drive";
-import { canControl, LOOKS_ONLY } from "../page/looking";
+import { canControl, VIEW_ONLY } from "../page/view_only";
 import { Combo } from "../theme/combo";
 import { fixed } from "../theme/format";
 import { NumberField } from "../theme/number_field";
@@ -33,7 +33,7 @@ function Steering({ page: { drive, session } }: PanelProps): JSX.Element {
           {isDriving && `Driving ${topic ?? ""}${delay > 0 ? `, ${fixed(delay, 1)} s late` : ""}. Let go to stop.`}
           {!isDriving &&
             (!canControl({ session })
-              ? LOOKS_ONLY
+              ? VIEW_ONLY
               : topic === null
                 ? `Nothing listens to ${session.drive_topic ?? "velocities"} yet.`
                 : "Hold a slider to drive; let go to stop.")}

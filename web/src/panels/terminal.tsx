@@ -6,7 +6,7 @@ import { signal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 
-import { canControl, LOOKS_ONLY } from "../page/looking";
+import { canControl, VIEW_ONLY } from "../page/view_only";
 import type { Page } from "../page/page";
 import { Tabs } from "../theme/tabs";
 import type { Panel, PanelProps } from "./panel";
@@ -61,7 +61,7 @@ function Terminals({ page }: PanelProps): JSX.Element {
           <Tabs label="Nodes" items={items} selected={String(number)} onSelect={(id) => state.choose(Number(id))} />
         </div>
       )}
-      {!canControl(page) && <p class="sm t2 pad">{LOOKS_ONLY}</p>}
+      {!canControl(page) && <p class="sm t2 pad">{VIEW_ONLY}</p>}
       <Screen key={number} page={page} number={number} />
     </div>
   );

@@ -3,7 +3,7 @@
 import type { JSX } from "preact";
 import { useEffect, useLayoutEffect, useRef } from "preact/hooks";
 
-import { canControl } from "../page/looking";
+import { canControl } from "../page/view_only";
 import { Button } from "../theme/button";
 import { count as messages } from "../theme/format";
 import { Select } from "../theme/select";

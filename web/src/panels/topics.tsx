@@ -3,7 +3,7 @@
 import type { JSX } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 
-import { canControl, Controls } from "../page/looking";
+import { canControl, Controls } from "../page/view_only";
 import { Button } from "../theme/button";
 import { Combo } from "../theme/combo";
 import type { Panel, PanelProps } from "./panel";

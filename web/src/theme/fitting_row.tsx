@@ -7,7 +7,7 @@ import { MenuButton } from "./menu";
 import type { MenuItem } from "./menu_list";
 
 /** Entry of a row's menu, shown while the part of this name is hidden. */
-export interface GivenItem extends MenuItem {
+export interface HiddenItem extends MenuItem {
   readonly part: string;
 }
 
@@ -32,7 +32,7 @@ interface MoreProps {
   readonly row: RefObject<HTMLElement | null>;
   readonly label: string;
   readonly class?: string;
-  readonly items: () => readonly GivenItem[];
+  readonly items: () => readonly HiddenItem[];
 }
 
 /** Menu of the hidden parts; it shows while there are any. */

@@ -29,7 +29,7 @@ export interface ToolContext {
   /** Null where no world can be changed. */
   readonly editor: WorldEditor | null;
   /** True on a view-only page: nothing in the scene can be pressed. */
-  readonly looksOnly: boolean;
+  readonly viewOnly: boolean;
 }
 
 export abstract class BaseTool implements Tool {

@@ -84,7 +84,7 @@ export class Interact extends BaseTool {
 
   /** Handlers of the picked object; null: none, or a view-only page. */
   private targetOf(pick: Pick | null): PointerTarget | null {
-    return pick === null || this.context.looksOnly ? null : pointerTargetOf(pick.object);
+    return pick === null || this.context.viewOnly ? null : pointerTargetOf(pick.object);
   }
 
   private setHovered(target: PointerTarget | null): void {

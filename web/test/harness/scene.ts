@@ -44,7 +44,7 @@ const tools = new ToolList({
   hovered: signal(null),
   goals: new GoalQueue(),
   editor: null,
-  looksOnly: false,
+  viewOnly: false,
 });
 const input = new SceneInput(scene, views, (event) => tools.pointer(event));
 scene.grid.value = true;

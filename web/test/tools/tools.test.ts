@@ -13,7 +13,7 @@ import { FakeConnection } from "../fake_connection";
 import { FakeScene } from "../fake_page";
 
 /** A scene whose pixel (x, y) is the point (x / 100, y / 100) of the ground. */
-function setUp(looksOnly = false) {
+function setUp(viewOnly = false) {
   const picks = new Map<string, Pick>();
   const boxes: PictureBox[] = [];
   const labels: { text: string }[] = [];
@@ -58,7 +58,7 @@ function setUp(looksOnly = false) {
     hovered,
     goals,
     editor: null,
-    looksOnly,
+    viewOnly,
   });
   const point = (kind: PointerInput["kind"], x: number, y: number, button = 0): boolean =>
     tools.pointer({ x, y, button, shift: false, control: false, kind });

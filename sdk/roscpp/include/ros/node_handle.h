@@ -486,8 +486,8 @@ class NodeHandle {
   M_string remappings_, unresolved_remappings_;
   CallbackQueueInterface* queue_ = nullptr;
   /** Publishers, subscribers, servers and timers of this handle, which shutdown() ends. */
-  struct Made;
-  boost::shared_ptr<Made> made_;
+  struct Endpoints;
+  boost::shared_ptr<Endpoints> endpoints_;
 };
 
 }  // namespace ros

@@ -65,14 +65,14 @@ class BufferCore {
     std::map<ros::Time, Sample> samples;
   };
   /** Chain from a frame up to the root: each frame, and the transform to it from the first one. */
-  struct Way {
+  struct Chain {
     std::vector<std::pair<std::string, Transform> > frames;
     std::string fault;
   };
   bool store(const std::string& child, const Sample& sample, const std::string& authority, bool is_static);
   bool find(const Frame& frame, const std::string& name, const ros::Time& time, Sample& sample,
             std::string& fault) const;
-  Way wayUp(const std::string& from, const ros::Time& time, const std::string& until) const;
+  Chain chainUp(const std::string& from, const ros::Time& time, const std::string& until) const;
   Transform lookUp(const std::string& target, const std::string& source, ros::Time& time) const;
   ros::Time latestCommon(const std::string& target, const std::string& source) const;
   std::string checked(const std::string& frame, const char* what) const;

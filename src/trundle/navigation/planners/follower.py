@@ -128,8 +128,8 @@ class Follower(ABC):
         self._publish(self._global, plan)
         command = self._choose(pose, plan, goal)
         if self._local.has_subscribers:
-            way = [] if command is None else self._way(pose, command, None)
-            self._publish(self._local, np.array(way).reshape(-1, 3))
+            path = [] if command is None else self._rolled_out(pose, command, None)
+            self._publish(self._local, np.array(path).reshape(-1, 3))
         return command
 
     def _choose(self, pose: Pose2D, plan: NDArray[np.float64], goal: Pose2D) -> Velocity | None:
@@ -147,7 +147,7 @@ class Follower(ABC):
         turn = self._turn_first(pose, plan) if self.turns_first else None
         return self.best(pose, plan) if turn is None else turn
 
-    def _way(self, pose: Pose2D, velocity: Velocity, time_s: float | None) -> list[tuple[float, float, float]]:
+    def _rolled_out(self, pose: Pose2D, velocity: Velocity, time_s: float | None) -> list[tuple[float, float, float]]:
         return _grids.roll_out(self.rollout_settings(time_s or 1.0), pose, self.odom.velocity, velocity)
 
     def _is_free(self, pose: Pose2D, velocity: Velocity, time_s: float) -> bool:
@@ -155,7 +155,7 @@ class Follower(ABC):
         grid = self.costmap.costmap
         return all(
             _grids.footprint_cost(grid.cells, grid.origin, grid.resolution_m, self.costmap.footprint, point) >= 0.0
-            for point in self._way(pose, velocity, time_s)
+            for point in self._rolled_out(pose, velocity, time_s)
         )
 
     def _turn_first(self, pose: Pose2D, plan: NDArray[np.float64]) -> Velocity | None:

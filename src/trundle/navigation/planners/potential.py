@@ -86,10 +86,10 @@ class PotentialPlanner:
         costs = self._costs(grid, first)
         potential = _grids.wave_front(costs, [first], stop=last)  # no `last`: the front has reached every cell it can
         end = nearest_reached(potential, last, reach / grid.resolution_m)
-        way = _grids.descend(potential, end, first) if end is not None else np.empty((0, 2))
-        if end is None or not len(way):
+        path = _grids.descend(potential, end, first) if end is not None else np.empty((0, 2))
+        if end is None or not len(path):
             return None
-        return Plan(self._costmap.frame, self._poses(grid, way[::-1], start, goal, is_exact=end == last))
+        return Plan(self._costmap.frame, self._poses(grid, path[::-1], start, goal, is_exact=end == last))
 
     def _costs(self, grid: Costmap, start: tuple[int, int]) -> NDArray[np.float32]:
         """Return the cost of crossing each cell; the border is impassable, the robot's own cell is not.
@@ -107,10 +107,10 @@ class PotentialPlanner:
         return costs
 
     def _poses(
-        self, grid: Costmap, way: NDArray[np.float64], start: Pose2D, goal: Pose2D, *, is_exact: bool
+        self, grid: Costmap, path: NDArray[np.float64], start: Pose2D, goal: Pose2D, *, is_exact: bool
     ) -> NDArray[np.float64]:
         """Return the poses from the robot to the goal [m]; each heads along the path."""
-        points = (way + 0.5) * grid.resolution_m + np.array(grid.origin)
+        points = (path + 0.5) * grid.resolution_m + np.array(grid.origin)
         points[0] = start.x, start.y
         if is_exact:
             points[-1] = goal.x, goal.y

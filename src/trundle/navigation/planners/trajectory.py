@@ -149,9 +149,9 @@ class TrajectoryPlannerROS(Follower):
         terms = _grids.score_rollouts(
             self.rollout_settings(horizon_s), maps, self.costmap.footprint, pose, self.odom.velocity, samples
         )
-        way_costs = self._way_costs(plan, np.abs(samples[:, 0]) * horizon_s)
+        path_costs = self._path_costs(plan, np.abs(samples[:, 0]) * horizon_s)
         obstacles = terms[:, 0]
-        obstacles[obstacles > 0.0] = np.maximum(obstacles - way_costs, 0.0)[obstacles > 0.0]
+        obstacles[obstacles > 0.0] = np.maximum(obstacles - path_costs, 0.0)[obstacles > 0.0]
         scores = self._scores(terms, samples, pose, plan)
         best = int(scores.argmin()) if len(scores) else -1
         if best < 0 or not math.isfinite(scores[best]):
@@ -160,7 +160,7 @@ class TrajectoryPlannerROS(Follower):
         self.oscillation.note(pose, (x, y, turn), settings.oscillation_reset_dist, settings.escape_reset_theta)
         return x, y, turn
 
-    def _way_costs(self, plan: NDArray[np.float64], lengths_m: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _path_costs(self, plan: NDArray[np.float64], lengths_m: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the highest cost under the footprint on the first part of the plan, for each of the lengths.
 
         A trajectory's cost counts only above it; otherwise standing before a door would cost less than passing it.
@@ -205,8 +205,8 @@ class TrajectoryPlannerROS(Follower):
     def _end(self, pose: Pose2D, sample: NDArray[np.float64]) -> tuple[float, float]:
         """Return the end of a sample's trajectory [m]."""
         x, y, turn = sample.tolist()
-        way = _grids.roll_out(self.rollout_settings(self._settings.sim_time), pose, self.odom.velocity, (x, y, turn))
-        return (way[-1][0], way[-1][1]) if way else (pose.x, pose.y)
+        path = _grids.roll_out(self.rollout_settings(self._settings.sim_time), pose, self.odom.velocity, (x, y, turn))
+        return (path[-1][0], path[-1][1]) if path else (pose.x, pose.y)
 
     def _samples(self) -> NDArray[np.float64]:
         """Return the velocities (n, 3): forwards with turns, turns on the spot, sideways, and back to escape."""

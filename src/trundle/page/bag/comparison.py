@@ -14,7 +14,7 @@ _RESTING = 1e-12
 _MAX_SHOWN_ELEMENTS = 8
 """Largest array of which all elements are shown; of a longer one, only the element with the largest difference is."""
 _ELEMENT = re.compile(r"\[\d+\]$")
-_PLACE = re.compile(r"\.(?:position|translation)\.[xyz]$|^/[^.]*\.position\[[^\]]*\]$")
+_POSITION = re.compile(r"\.(?:position|translation)\.[xyz]$|^/[^.]*\.position\[[^\]]*\]$")
 """Paths of positions: numbers of poses, or of joints."""
 
 
@@ -118,7 +118,7 @@ class BagComparison:
         """Return the run's first time [s] at which a pose or a joint differs by more than a tolerance, and its name."""
         frames = self._frames.values()
         times = [(frame.first_above(tolerance, (0, 1)), frame.reference.models[0]) for frame in frames]
-        times += [(topic.first_above(tolerance, topic.places), topic.topic) for topic in self._all_topics]
+        times += [(topic.first_above(tolerance, topic.positions), topic.topic) for topic in self._all_topics]
         return min(((time, name) for time, name in times if time is not None), default=None)
 
 
@@ -133,7 +133,7 @@ class _TopicComparison(NumberComparison):
         seen |= set(names)
         self._paths = tuple(self._paths[at] for at in columns)
         self.topic = numbers.topic
-        self.places = [at for at, column in enumerate(columns) if _PLACE.search(names[column])]
+        self.positions = [at for at, column in enumerate(columns) if _POSITION.search(names[column])]
         """Columns of positions."""
         compared = Numbers(
             names=tuple(names[at] for at in columns),

@@ -28,7 +28,7 @@ _MIN_BURST = 2048
 _FIRST_GROWTH, _SLOW_GROWTH, _MAX_GROWTH = 2.0, 1.02, 1.2
 """Growth of the pace: until the first reduction, after a reduction, and later."""
 _GROWTH_S = 0.25
-_FIRST_LEAP, _LEAP = 2.5, 1.3
+_FIRST_JUMP, _JUMP = 2.5, 1.3
 """Limit of the pace as a multiple of the highest rate at which data have arrived, before the first reduction and later.
 """
 _MIN_PAUSE_S = 0.05
@@ -92,7 +92,7 @@ class Pace:
         self._marks: deque[_Mark] = deque()
         """Marks without an echo."""
         self._echoes: deque[_Echo] = deque()
-        """Echoes of the last while, since the last reduction."""
+        """Echoes of the last window, since the last reduction."""
         self._last = self._averaged = _Echo(0.0, 0.0, 0)
         """Newest echo, and the one from which the average rate of arrival is taken."""
         self._shortest, self._proven = _Extreme(), _Extreme()
@@ -100,7 +100,7 @@ class Pace:
         self._pauses: deque[tuple[float, float]] = deque()
         """Times of long pauses between echoes, and their lengths."""
         self._reduced_s = self._grown_s = -math.inf
-        self._growth, self._max_growth, self._leap = _FIRST_GROWTH, _FIRST_GROWTH, _FIRST_LEAP
+        self._growth, self._max_growth, self._max_jump = _FIRST_GROWTH, _FIRST_GROWTH, _FIRST_JUMP
         self._is_limited = False
         self._echoes_nothing = False
 
@@ -217,7 +217,7 @@ class Pace:
             self._proven.add(rate, echo.time_s)
             self.rate = max(self.rate, rate)
         average_s = echo.time_s - self._averaged.time_s
-        if average_s >= self._while_s:
+        if average_s >= self._window_s:
             self._proven.add((echo.total - self._averaged.total) / average_s, echo.time_s)
             self._averaged = echo
 
@@ -228,18 +228,18 @@ class Pace:
             self._echoes[-1] = echo._replace(delay_s=min(echo.delay_s, self._echoes[-1].delay_s))
         else:
             self._echoes.append(echo)
-        while len(self._echoes) > 2 and self._echoes[1].time_s <= now_s - self._while_s:
+        while len(self._echoes) > 2 and self._echoes[1].time_s <= now_s - self._window_s:
             self._echoes.popleft()
         first = self._echoes[0]
         wait_s = min(e.delay_s for e in self._echoes) - self._base_s
         span_s = now_s - first.time_s
-        if wait_s > _TARGET_S and span_s >= self._while_s:
+        if wait_s > _TARGET_S and span_s >= self._window_s:
             arrived = (echo.total - first.total) / span_s
             self.rate = max(min(self.rate, 0.95 * arrived), _MIN_RATE)
             self._budget = float(echo.total - self._total)  # stop until these data have arrived
             self._budget_s = self._reduced_s = now_s
             self._echoes.clear()
-            self._growth, self._max_growth, self._leap = _SLOW_GROWTH, _MAX_GROWTH, _LEAP
+            self._growth, self._max_growth, self._max_jump = _SLOW_GROWTH, _MAX_GROWTH, _JUMP
             self._is_limited = False
             self._proven = _Extreme()
             self._proven.add(self.rate, now_s)
@@ -249,7 +249,7 @@ class Pace:
             and now_s >= self._grown_s + min(_GROWTH_S, 2 * echo.delay_s + 0.01)
         ):
             self._grown_s, self._is_limited = now_s, False
-            self.rate = max(self.rate, min(self._growth * self.rate, self._leap * self._proven_rate))
+            self.rate = max(self.rate, min(self._growth * self.rate, self._max_jump * self._proven_rate))
             self._growth = min(self._growth**2, self._max_growth)
 
     @property
@@ -269,7 +269,7 @@ class Pace:
         return longest[1] if len(longest) == 2 else 0.0
 
     @property
-    def _while_s(self) -> float:
+    def _window_s(self) -> float:
         """Time within which a client that handles messages now and then echoes at least one promptly."""
         return min(max(1.2 * self._pause_s, 0.1), _MAX_HOLD_S)
 

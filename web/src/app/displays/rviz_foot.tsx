@@ -5,7 +5,7 @@ import type { JSX } from "preact";
 import { saveFile, sentence } from "../../panels/use";
 import { Button } from "../../theme/button";
 import { count } from "../../theme/format";
-import { canControl } from "../../page/looking";
+import { canControl } from "../../page/view_only";
 import type { RvizFileInfo, Shell } from "../shell";
 
 export function RvizFoot({ shell }: { readonly shell: Shell }): JSX.Element | null {

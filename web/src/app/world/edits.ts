@@ -2,7 +2,7 @@
 
 import type { SimulatedWorld } from "../../scene/simulated_world";
 import type { WorldEditor } from "../../page/world_editor";
-import { canControl } from "../../page/looking";
+import { canControl } from "../../page/view_only";
 import type { Fields, RequestName } from "../../protocol/connection";
 import type { Shell } from "../shell";
 

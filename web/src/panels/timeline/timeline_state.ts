@@ -2,7 +2,7 @@
 
 import { computed, signal } from "@preact/signals";
 
-import { canControl } from "../../page/looking";
+import { canControl } from "../../page/view_only";
 import type { Page } from "../../page/page";
 import { bodiesOf } from "../../page/world_nodes";
 import type { Fields, Subscription } from "../../protocol/connection";

@@ -4,7 +4,7 @@ import type { ComponentChildren, JSX } from "preact";
 
 import type { Page } from "./page";
 
-export const LOOKS_ONLY = "This link is view-only.";
+export const VIEW_ONLY = "This link is view-only.";
 
 /** True if the page is not view-only. */
 export function canControl({ session }: Pick<Page, "session">): boolean {
@@ -22,7 +22,7 @@ export function Controls({
   const isOff = !canControl(page);
   return (
     <fieldset class="controls" disabled={isOff}>
-      {isOff && <p class="sm t2 pad">{LOOKS_ONLY}</p>}
+      {isOff && <p class="sm t2 pad">{VIEW_ONLY}</p>}
       {children}
     </fieldset>
   );
