@@ -37,7 +37,7 @@ def write_atomically(path: Path, content: str | bytes | Path, *, replace: bool =
 def replaced_atomically(path: Path) -> Generator[Path]:
     """Yield a temporary file of the same suffix, which replaces `path` at the end, but not after an error.
 
-    Pipes and devices are yielded themselves.
+    A pipe or a device is yielded itself, and written in place.
 
     Raises:
         OSError: it cannot be written.
