@@ -15,6 +15,7 @@ REASONS = Counter(
     {
         "a GPU": 1,  # tests/gym/test_gpu.py has it
         "a compiler": 2,  # tests/gazebo/plugins/compiled has one like it
+        "a robot that drives": 1,  # tests/navigation/mapping drives one
         "a terminal": 1,
         "a workspace": 2,  # tests/ros/sdk compiles others
         "docker": 2,

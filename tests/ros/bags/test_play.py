@@ -125,7 +125,7 @@ def test_playing_waits_for_the_rate_control_topic_except_in_a_gap(graph: Any, tm
 
         def poll() -> None:
             waits.append(player.played)
-            if len(got) in (12, 41):
+            if len(got) in (12, 41) and waits.count(player.played) > 1:  # it waits
                 done.publish({"header": {"stamp": (40 if len(got) == 12 else 100) * 10**9}})
 
         player.play(poll)
