@@ -3,6 +3,7 @@ import { describe, expect, test } from "vitest";
 
 import { Curve } from "../../src/panels/plots/curve";
 import { legendText } from "../../src/panels/plots/legend";
+import { paddedRange } from "../../src/panels/plots/plot";
 import { PlotsState } from "../../src/panels/plots/plots_state";
 import { valueOwners } from "../../src/panels/plots/simulated_values";
 import { fakePage } from "../fake_page";
@@ -20,6 +21,26 @@ describe("the legend", () => {
     [-12.5, 20, "−12.50"],
   ])("writes %f beside at most %f as %s", (value, largest, text) => {
     expect(legendText(value, largest)).toBe(text);
+  });
+});
+
+describe("the axis of values", () => {
+  test.each([
+    [
+      [0, 2],
+      [-0.2, 2.2],
+    ],
+    [
+      [5, 5],
+      [4.5, 5.5],
+    ],
+    [
+      [0, -1.5e-7],
+      [-1.015e-5, 1e-5],
+    ],
+  ])("shows %j in %j", (values, range) => {
+    const [min, max] = paddedRange([new Float64Array(values)]);
+    expect([min.toPrecision(4), max.toPrecision(4)]).toEqual(range.map((end) => end.toPrecision(4)));
   });
 });
 

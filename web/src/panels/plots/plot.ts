@@ -9,6 +9,9 @@ export interface Plot {
 
 export type Range = readonly [number, number];
 
+/** Smallest margin: numerical noise of what is at rest stays a flat line. */
+const SMALLEST_MARGIN = 1e-5;
+
 /** Range of values with a margin of a tenth above and below. */
 export function paddedRange(values: readonly Float64Array[]): Range {
   let min = Infinity;
@@ -20,6 +23,6 @@ export function paddedRange(values: readonly Float64Array[]): Range {
     }
   }
   if (min > max) return [0, 1];
-  const room = max > min ? (max - min) * 0.1 : Math.max(Math.abs(max) * 0.1, 0.1);
-  return [min - room, max + room];
+  const margin = max > min ? Math.max((max - min) * 0.1, SMALLEST_MARGIN) : Math.max(Math.abs(max) * 0.1, 0.1);
+  return [min - margin, max + margin];
 }
