@@ -130,7 +130,7 @@ def test_the_keyboard_opens_the_menu_and_its_submenus(user: MenuUser) -> None:
     user.page.keyboard.press("Enter")
     user.page.locator('.menu [data-title="Collisions"][aria-checked="true"]').wait_for()
     user.page.keyboard.press("ArrowLeft")
-    user.page.wait_for_function("document.activeElement.dataset.title === 'View'")
+    user.until(lambda: user.page.evaluate("document.activeElement.dataset.title === 'View'"))
     user.page.keyboard.press("Escape")
     assert user.button("Collisions").get_attribute("aria-pressed") == "true"  # of this model, in the inspector
     user.button("Collisions").click()
@@ -153,7 +153,7 @@ def test_a_force_is_applied_from_the_menu(user: MenuUser) -> None:
     user.page.get_by_role("banner").get_by_role("button", name="Play", exact=True).click()
     user.click((-1, 0), button="right")
     user.choose("Apply force or torque…")
-    user.page.wait_for_function("document.activeElement.getAttribute('aria-label') === 'force x'")
+    user.until(lambda: user.page.evaluate("document.activeElement.getAttribute('aria-label') === 'force x'"))
     before = user.position("crate")
     user.page.keyboard.press("Control+a")
     user.page.keyboard.type("-60")
