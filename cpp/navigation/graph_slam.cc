@@ -15,7 +15,7 @@ constexpr std::size_t kMaxLoopChains = 3;                   // searched per scan
 constexpr double kMaxReach = 25.0;                          // of hits that are matched [m]
 constexpr double kMargin = 0.5;                             // of a window beyond the scan [m]
 constexpr int kNodesPerLink = 200;                          // a graph is optimized once a link for so many nodes is new
-constexpr double kRedrawn = 0.002, kRedrawnAngle = 0.0005;  // moves of a node that draw the map anew [m], [rad]
+constexpr double kRedrawn = 0.002, kRedrawnAngle = 0.0005;  // moves of a node after which the map is redrawn [m], [rad]
 // A loop may raise the error by what its three numbers may, and by as much for each step as odometry that is wrong by
 // 0.7 of its standard deviation in one direction.
 constexpr double kLoopError = 16.0, kLoopErrorPerStep = 0.5;

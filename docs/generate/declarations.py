@@ -57,7 +57,7 @@ class Endpoint(NamedTuple):
 
 
 class Declarations:
-    """What one object and the functions it calls declare."""
+    """Parameters, topics and services in the source of one object and of the functions that it calls."""
 
     def __init__(self, target: type | FunctionType) -> None:
         self.parameters: dict[str, Parameter] = {}

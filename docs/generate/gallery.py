@@ -8,7 +8,7 @@ from trundle.robots.packages import shipped_files
 
 Point = tuple[float, float, float]
 SIZE = (640, 400)
-"""Of a picture [px]."""
+"""Width and height of a picture [px]."""
 FILM_SIZE = (480, 300)
 """[px]"""
 
