@@ -12,6 +12,7 @@ from .urdf_tree import (
     RobotLink as RobotLink,
     RobotMesh as RobotMesh,
     RobotMimic as RobotMimic,
+    RobotSafety as RobotSafety,
     RobotShape as RobotShape,
     RobotSphere as RobotSphere,
 )

@@ -8,7 +8,7 @@ from trundle.spatial import Vector3
 
 from .link import read_link
 from .materials import Materials
-from .urdf_tree import JointLimit, Robot, RobotJoint, RobotJointType, RobotLink, RobotMimic
+from .urdf_tree import JointLimit, Robot, RobotJoint, RobotJointType, RobotLink, RobotMimic, RobotSafety
 from .values import read_optional, read_origin, read_vector
 
 _TYPES: tuple[str, ...] = get_args(RobotJointType)
@@ -149,12 +149,9 @@ def _read_joint(node: XmlNode, report: Diagnostics) -> RobotJoint:
         damping=read_optional(dynamics, "damping", 0.0, report),
         friction=read_optional(dynamics, "friction", 0.0, report),
         mimic=_read_mimic(node, name, report),
+        safety=_read_safety(node, name, report),
     )
     node.find("calibration")  # only real hardware uses it
-    safety = node.find("safety_controller")  # only ros_control uses it
-    if safety is not None and safety.attribute("k_velocity") is None:
-        fault = f"joint {name!r}: <safety_controller> without k_velocity, for which urdfdom refuses the robot"
-        report.warn(safety.at, f"{fault}; it is ignored", "incomplete-element")
     node.report_unread(report)
     return joint
 
@@ -188,6 +185,23 @@ def _read_limit(node: XmlNode, name: str, type_: str, report: Diagnostics) -> Jo
         upper=read_optional(limit, "upper", 0.0, report),
         effort=read_optional(limit, "effort", 0.0, report),
         velocity=read_optional(limit, "velocity", 0.0, report),
+    )
+
+
+def _read_safety(node: XmlNode, name: str, report: Diagnostics) -> RobotSafety | None:
+    """Return the limits that planners use; None without any, as k_velocity and k_position are real hardware's."""
+    safety = node.find("safety_controller")
+    if safety is None:
+        return None
+    if safety.attribute("k_velocity") is None:
+        fault = f"joint {name!r}: <safety_controller> without k_velocity, for which urdfdom refuses the robot"
+        report.warn(safety.at, f"{fault}; it is ignored", "incomplete-element")
+        return None
+    if safety.attribute("soft_lower_limit") is None and safety.attribute("soft_upper_limit") is None:
+        return None
+    return RobotSafety(
+        soft_lower_limit=read_optional(safety, "soft_lower_limit", 0.0, report),
+        soft_upper_limit=read_optional(safety, "soft_upper_limit", 0.0, report),
     )
 
 

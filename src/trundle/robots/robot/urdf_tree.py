@@ -103,6 +103,14 @@ class JointLimit:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class RobotSafety:
+    """<safety_controller>: limits that planners keep to, within those of <limit> [rad] or [m]."""
+
+    soft_lower_limit: float = 0.0
+    soft_upper_limit: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class RobotJoint:
     """<joint>"""
 
@@ -119,6 +127,7 @@ class RobotJoint:
     damping: float = 0.0
     friction: float = 0.0
     mimic: RobotMimic | None = None
+    safety: RobotSafety | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

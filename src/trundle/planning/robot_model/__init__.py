@@ -1,0 +1,5 @@
+"""Robot with its groups: URDF, SRDF and joint limits as one model."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
