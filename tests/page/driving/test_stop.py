@@ -1,5 +1,8 @@
 """Order of stops and reports of driving, tested on single parts."""
 
+import asyncio
+import ctypes
+import threading
 import time
 from collections.abc import Callable, Iterator
 from typing import cast
@@ -92,6 +95,29 @@ def test_a_resumed_server_reports_before_it_moves_the_robot(graph: Graph, page: 
     assert events.log[events.log.index(0.75) - 1] == {TOPIC}
 
 
+@pytest.mark.parametrize("is_renewed", [True, False])
+def test_a_lease_that_ends_while_the_server_is_held_up_may_be_renewed_after(
+    graph: Graph, page: Node, *, is_renewed: bool
+) -> None:
+    """What a page sent meanwhile waits in its socket; the server reads it after its timers."""
+    driving, events = _driven_robot(graph, page)
+
+    def hold_up() -> None:
+        driving.drive(CLIENT, FORWARD, {})
+        time.sleep(FORWARD.lease + 0.2)
+        renewed = msgspec.structs.replace(FORWARD, linear=0.75)
+        if is_renewed:
+            asyncio.get_running_loop().call_later(0.03, driving.drive, CLIENT, renewed, {})
+
+    _call(graph, hold_up)
+
+    until(lambda: 0.0 in events.log)
+    velocities = [entry for entry in events.log if isinstance(entry, float)]
+    assert (0.75 in velocities) is is_renewed
+    assert velocities.count(0.0) == 1
+    assert velocities[-1] == 0.0
+
+
 def test_a_robot_is_reported_as_driven_until_its_zero_is_sent(graph: Graph, page: Node) -> None:
     driving, events = _driven_robot(graph, page)
 
@@ -167,3 +193,34 @@ def test_robots_are_stopped_again_when_a_silent_server_ends(graph: Graph, page: 
     stop.end()
 
     until(lambda: events.log == [0.0, 0.0])
+
+
+def test_an_owner_that_was_held_up_does_not_stop_robots(
+    graph: Graph, page: Node, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Reports that came meanwhile are handled after; the owner's own silence is not the server's."""
+    monkeypatch.setattr("trundle.page.driving.stop.SILENT_TICKS", 4)
+    stop = DriveStop(page)
+    events = Events()
+    events.subscribe(graph.node("robot"))
+    publisher = page.advertise(TOPIC, TWIST)
+    until(lambda: publisher.has_subscribers)
+    ended = threading.Event()
+
+    def report() -> None:
+        while not ended.wait(0.05):
+            stop.follow({TOPIC: TWIST})
+
+    reports = threading.Thread(target=report)
+    reports.start()
+    for _ in range(3):
+        time.sleep(0.2)
+        ctypes.PyDLL(None).usleep(700_000)  # holds the interpreter's lock: no other thread runs
+    time.sleep(0.2)
+    before = list(events.log)
+    ended.set()
+    reports.join()
+
+    assert before == []
+    until(lambda: events.log == [0.0])  # without reports
+    stop.end()

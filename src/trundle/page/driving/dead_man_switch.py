@@ -28,6 +28,8 @@ class _Held:
     """Lease's end."""
     due_s: float = 0.0
     """Time of the next publication."""
+    is_extended: bool = False
+    """True if the lease was extended since the command arrived."""
 
 
 class Driving:
@@ -41,6 +43,8 @@ class Driving:
         self._drivers: dict[tuple[Connection, str], _Held] = {}
         """Client and topic → what the client commands."""
         self._timer: asyncio.TimerHandle | None = None
+        self._due_s = math.inf
+        """Monotonic time at which the timer is due [s]."""
 
     @property
     def topics(self) -> set[str]:
@@ -76,7 +80,7 @@ class Driving:
         end_s = time.monotonic() + command.lease
         held = self._drivers.get((client, topic))
         if held is not None and (held.command.linear, held.command.angular) == (command.linear, command.angular):
-            held.command, held.end_s = command, end_s
+            held.command, held.end_s, held.is_extended = command, end_s, False
         else:
             self._drivers[client, topic] = _Held(command, end_s)
         self._publish_due()
@@ -98,10 +102,20 @@ class Driving:
             self._end(client, topic)
 
     def _publish_due(self) -> None:
-        """Stop robots whose drivers' leases have ended, publish the velocities that are due, and set the timer."""
+        """Stop robots whose drivers' leases have ended, publish the velocities that are due, and set the timer.
+
+        After a time in which this process was held up, renewals may wait in the sockets unread: a lease that ended
+        meanwhile ends a period later, without another velocity.
+        """
         now_s = time.monotonic()
+        was_held_up = now_s - self._due_s > PERIOD_S
         for (client, topic), held in list(self._drivers.items()):
-            if now_s >= held.end_s:
+            if now_s < held.end_s:
+                continue
+            if was_held_up and not held.is_extended:
+                held.end_s = held.due_s = now_s + PERIOD_S
+                held.is_extended = True
+            else:
                 self._end(client, topic)
         due = [(topic, held) for (_, topic), held in self._drivers.items() if now_s >= held.due_s]
         if due:
@@ -113,10 +127,10 @@ class Driving:
             publish_twist(self._node, self._publishers[topic], held.command.linear, held.command.angular)
         if self._timer is not None:
             self._timer.cancel()
-            self._timer = None
+            self._timer, self._due_s = None, math.inf
         if self._drivers:
-            wait_s = min(min(held.due_s, held.end_s) for held in self._drivers.values()) - now_s
-            self._timer = asyncio.get_running_loop().call_later(wait_s, self._publish_due)
+            self._due_s = min(min(held.due_s, held.end_s) for held in self._drivers.values())
+            self._timer = asyncio.get_running_loop().call_later(self._due_s - now_s, self._publish_due)
 
     def _add_topic(self, node: Node, topic: str, type_name: str) -> None:
         """Advertise a topic.

@@ -1,7 +1,6 @@
 """Stop of driven robots by the owner of the page's server, if the server dies or hangs."""
 
 import threading
-import time
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
@@ -10,8 +9,10 @@ from .twist import publish_twist
 if TYPE_CHECKING:
     from trundle.ros import Node, Publisher
 
-SILENCE_S = 0.4
-"""Time without a report of the server after which driven robots are stopped; it reports every 0.1 s."""
+_TICK_S = 0.1
+"""Period at which silence is counted, and at which the server reports."""
+SILENT_TICKS = 10
+"""Ticks without a report of the server after which driven robots are stopped: as long as a page's lease."""
 
 
 class DriveStop:
@@ -27,7 +28,8 @@ class DriveStop:
         """Topics in the latest report."""
         self._is_stopped = False
         """True after a stop, until the next report."""
-        self._reported_s = 0.0
+        self._silent_ticks = 0
+        """Ticks since the latest report."""
         self._changed = threading.Condition(threading.RLock())
         self._has_ended = False
         self._watch: threading.Thread | None = None
@@ -38,7 +40,7 @@ class DriveStop:
             if topic not in self._publishers:
                 self._publishers[topic] = self._node.advertise(topic, type_name, latch=True, queue_size=1)
         with self._changed:
-            self._driven, self._is_stopped, self._reported_s = frozenset(topics), False, time.monotonic()
+            self._driven, self._is_stopped, self._silent_ticks = frozenset(topics), False, 0
             self._changed.notify()
         if self._watch is None:
             self._watch = threading.Thread(target=self._watch_reports, name="trundle-drive-stop", daemon=True)
@@ -60,15 +62,18 @@ class DriveStop:
         return DriveStop(self._node)
 
     def _watch_reports(self) -> None:
-        """Stop driven robots when reports cease."""
+        """Stop driven robots when reports cease.
+
+        Ticks are counted, not time: while this process is held up, the server's reports wait in its pipe unread.
+        """
         with self._changed:
             while not self._has_ended:
-                is_moving = self._driven and not self._is_stopped
-                remaining_s = self._reported_s + SILENCE_S - time.monotonic() if is_moving else None
-                if remaining_s is not None and remaining_s <= 0.0:
+                is_moving = bool(self._driven) and not self._is_stopped
+                if self._changed.wait(_TICK_S if is_moving else None) or not is_moving:
+                    continue
+                self._silent_ticks += 1
+                if self._silent_ticks >= SILENT_TICKS:
                     self._stop()
-                else:
-                    self._changed.wait(remaining_s)
 
     def _stop(self) -> None:
         """Publish zero on the driven topics."""
