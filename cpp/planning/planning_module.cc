@@ -1,0 +1,6 @@
+// The Python module `_planning`: kinematics, collisions and planners of arms. None holds the GIL.
+#include <nanobind/nanobind.h>
+
+#include "kinematics_bindings.h"
+
+NB_MODULE(_planning, module) { trundle::planning::bind_kinematics(module); }
