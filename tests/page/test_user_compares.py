@@ -137,6 +137,8 @@ def test_a_run_is_compared_with_a_recording(user: CompareUser, folder: Path, tmp
     user.until_distance(float(np.linalg.norm(recorded - user.position("puck"))))
     assert user.number("puck", "distance", 3) == pytest.approx(math.hypot(1.5, 0.5), abs=2e-3), "that of the start"
     assert user.number("puck", "angle", 2) == 0.0
+    assert user.cells("puck", "velocity")[2] == "0.707m/s", "one drives along x, the other along −y"
+    assert user.cells("puck", "angular velocity")[2] == "0.000rad/s"
     user.sees("1.0 of 2.0 s")
 
     with user.page.expect_download() as download:

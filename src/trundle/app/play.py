@@ -204,7 +204,7 @@ class LogPage:
             UsageError: it was recorded in another world.
         """
         start = float(self._log.times_s[0])
-        reference = Reference(recording, title, self._simulation, start=start, has_velocities=True)
+        reference = Reference(recording, title, self._simulation, start=start)
         compared = reference.comparison.reference
         reference.comparison.add_run(Trajectory.of_log(self._log).only(compared.models, compared.joints))
         self._reference = reference

@@ -132,6 +132,19 @@ def test_velocities_of_recorded_runs_are_compared() -> None:
     assert found["floor", "velocity"] == (0.0, 0.0, 0.0, 0.0)
 
 
+def test_velocities_of_a_run_that_goes_on_are_compared() -> None:
+    """The run's are measured, the reference's are differences of its poses: here 1 m/s along x."""
+    comparison = Comparison(Trajectory.of_log(log()), start=10.0, has_velocities=True)
+    twists = np.zeros((2, 6))
+    twists[1] = [1.0, 0.5, 0.0, 0.0, 0.0, 0.25]
+
+    row = comparison.row(np.full((2, 7), np.nan), np.zeros(1), twists)
+    found = {(one.name, one.quantity): one.now for one in comparison.differences(11.0, row)}
+
+    assert found["box", "velocity"] == pytest.approx(0.5)
+    assert found["box", "angular velocity"] == pytest.approx(0.25)
+
+
 def test_velocities_are_those_of_uniform_acceleration() -> None:
     """Differences of both neighbors are exact for it, but for the ends; one sample is at rest."""
     poses = np.zeros((len(TIMES), 1, 7))

@@ -73,13 +73,13 @@ class LiveComparison:
     def after_step(self, snapshot: Snapshot) -> None:
         """Take a sample."""
         if self._reference is not None:
-            row = self._rows.read(snapshot.poses, snapshot.joint_positions)
+            row = self._rows.read(snapshot)
             self._reference.comparison.add(snapshot.time_ns / NS_PER_S, row)
 
     def put(self, snapshot: Snapshot) -> None:
         """Send the differences to the page."""
         if self._reference is not None:
-            row = self._rows.read(snapshot.poses, snapshot.joint_positions)
+            row = self._rows.read(snapshot)
             self._reference.put_differences(self._server, snapshot.time_ns / NS_PER_S, row)
 
     def _start(self, reference: Reference) -> None:

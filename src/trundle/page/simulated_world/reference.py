@@ -13,7 +13,7 @@ from trundle.base.diagnostics import DescriptionError, Source, UsageError
 from trundle.page import DIFFERENCES, PageServer
 from trundle.sim.comparison import Comparison, Difference, Quantity, Trajectory, ascending_rows, first_links
 from trundle.sim.gltf import content_name
-from trundle.sim.simulation import Simulation, StateLog, read_state_log
+from trundle.sim.simulation import Simulation, Snapshot, StateLog, read_state_log
 
 from ..world.manifest import Manifest
 from ..world.reference import Differences, ReferenceInfo
@@ -32,9 +32,7 @@ _Array = NDArray[np.float64]
 class Reference:
     """Recording, and the world's differences from it."""
 
-    def __init__(
-        self, log: StateLog, title: str, simulation: Simulation, *, start: float, has_velocities: bool = False
-    ) -> None:
+    def __init__(self, log: StateLog, title: str, simulation: Simulation, *, start: float) -> None:
         """Compare a world with a recording.
 
         Args:
@@ -42,7 +40,6 @@ class Reference:
             title: name for users.
             simulation: simulation of the world.
             start: time of the world at which the recording starts [s].
-            has_velocities: as in `Comparison`.
 
         Raises:
             UsageError: it was recorded in another world.
@@ -58,7 +55,7 @@ class Reference:
                 f"{_listed(movable)} can move"
             )
         joints = [joint for joint in simulation.engine.compiled.joint_names if joint.partition("::")[0] in models]
-        self.comparison = Comparison(whole.only(models, joints), start=start, has_velocities=has_velocities)
+        self.comparison = Comparison(whole.only(models, joints), start=start, has_velocities=True)
         self._title = title
         self._links = tuple(link for link in log.links if link in links and link.partition("::")[0] in models)
         self._samples, data = _packed(log, self._links, self.comparison.reference.joints)
@@ -123,8 +120,8 @@ class RowReader:
 
         Args:
             comparison: comparison that the rows are for.
-            links: `model::link`, in the order of the poses.
-            joints: `model::joint`, in the order of the positions.
+            links: `model::link`, in the order of the world's.
+            joints: `model::joint`, in the order of the world's.
         """
         firsts = first_links(links)
         indices = {joint: index for index, joint in enumerate(joints)}
@@ -133,9 +130,10 @@ class RowReader:
         self._links = np.array([firsts.get(model, -1) for model in reference.models], dtype=np.intp)
         self._joints = np.array([indices.get(joint, -1) for joint in reference.joints], dtype=np.intp)
 
-    def read(self, poses: _Array, positions: _Array) -> _Array:
-        """Return a row of poses (links, 7) and positions (joints,); NaN for what the world does not have."""
-        return self._comparison.row(_taken(poses, self._links), _taken(positions, self._joints))
+    def read(self, snapshot: Snapshot) -> _Array:
+        """Return a row of the models' poses and twists and of the joints; NaN for what the world does not have."""
+        poses, twists = _taken(snapshot.poses, self._links), _taken(snapshot.twists, self._links)
+        return self._comparison.row(poses, _taken(snapshot.joint_positions, self._joints), twists)
 
 
 def read_recording(file: Path, title: str) -> StateLog:

@@ -24,17 +24,20 @@ class Comparison(RunSamples):
         Args:
             reference: models and joints to compare.
             start: the run's start [s], at which the reference starts.
-            has_velocities: True: models' velocities are compared as well, each by the differences of its recorded
-                poses; for a recorded run alone.
+            has_velocities: True: models' velocities are compared as well; recorded ones are differences of poses.
         """
         width = (4 if has_velocities else 2) * len(reference.models) + len(reference.joints)
         super().__init__(start=start, duration=float(reference.times[-1]), width=width)
         self.reference = reference
         self._twists = velocities(reference.times, reference.poses) if has_velocities else None
 
-    def row(self, poses: _Array, positions: _Array) -> _Array:
-        """Return a run's row of (models, 7) poses and (joints,) positions."""
-        return np.concatenate([poses.reshape(-1), positions])
+    def row(self, poses: _Array, positions: _Array, twists: _Array | None = None) -> _Array:
+        """Return a run's row of (models, 7) poses, (joints,) positions and, with velocities, (models, 6) twists."""
+        parts = [poses.reshape(-1), positions]
+        if self._twists is not None:
+            assert twists is not None, "velocities are compared"
+            parts.append(twists.reshape(-1))
+        return np.concatenate(parts)
 
     def add_run(self, run: Trajectory) -> None:
         """Add all samples of a recorded run that has the reference's models and joints."""
