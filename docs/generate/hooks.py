@@ -20,6 +20,7 @@ from generate import (  # noqa: E402
     gallery,
     gazebo_headers,
     pictures,
+    sensor_settings,
     tags,
 )
 
@@ -34,6 +35,7 @@ PAGES: dict[str, Callable[[], str]] = {
     "reference/plugins.md": catalogs.plugins_page,
     "reference/python.md": api.page,
     "reference/roslaunch.md": tags.roslaunch_page,
+    "reference/sensors.md": sensor_settings.page,
     "reference/sdf.md": lambda: elements.page("sdf"),
     "reference/urdf.md": lambda: elements.page("urdf"),
     "reference/xacro.md": tags.xacro_page,

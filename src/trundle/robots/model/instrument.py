@@ -43,6 +43,7 @@ class Transceiver(Struct, frozen=True, kw_only=True):
     __module__ = "trundle"
 
     essid: str = "wireless"
+    """Name of a transmitter's network."""
     frequency_mhz: float = 2442.0
     """Frequency of a transmitter [MHz]."""
     lowest_mhz: float = 2412.0
@@ -63,9 +64,9 @@ class Altimeter(Struct, frozen=True, kw_only=True):
     __module__ = "trundle"
 
     position: Noise = Noise()
-    """[m]"""
+    """Noise of the height [m]."""
     velocity: Noise = Noise()
-    """[m/s]"""
+    """Noise of the vertical velocity [m/s]."""
 
 
 class Magnetometer(Struct, frozen=True, kw_only=True):
@@ -74,7 +75,7 @@ class Magnetometer(Struct, frozen=True, kw_only=True):
     __module__ = "trundle"
 
     field: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
-    """[T]"""
+    """Noise along the axes [T]."""
 
 
 class AirPressure(Struct, frozen=True, kw_only=True):
@@ -85,7 +86,7 @@ class AirPressure(Struct, frozen=True, kw_only=True):
     reference_altitude: float = 0.0
     """Height of the world's z = 0 above the ground of its atmosphere [m]."""
     pressure: Noise = Noise()
-    """[Pa]"""
+    """Noise of the pressure [Pa]."""
 
 
 class AirSpeed(Struct, frozen=True, kw_only=True):
@@ -94,7 +95,7 @@ class AirSpeed(Struct, frozen=True, kw_only=True):
     __module__ = "trundle"
 
     pressure: Noise = Noise()
-    """[Pa]"""
+    """Noise of the pressure [Pa]."""
 
 
 Instrument: TypeAlias = LogicalCamera | Sonar | Transceiver | Altimeter | Magnetometer | AirPressure | AirSpeed

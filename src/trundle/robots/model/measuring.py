@@ -14,12 +14,13 @@ class ScanAxis(Struct, frozen=True, kw_only=True):
     __module__ = "trundle"
 
     samples: int = 1
+    """Number of rays."""
     resolution: float = 1.0
     """Ratio of output values to samples; Gazebo interpolates between rays."""
     min_angle: float = 0.0
-    """[rad]"""
+    """Angle of the first ray [rad]."""
     max_angle: float = 0.0
-    """[rad]"""
+    """Angle of the last ray [rad]."""
 
     @property
     def values(self) -> int:
@@ -33,18 +34,23 @@ class RangeScan(Struct, frozen=True, kw_only=True):
     __module__ = "trundle"
 
     horizontal: ScanAxis = ScanAxis()
+    """Angles about z, counterclockwise."""
     vertical: ScanAxis = ScanAxis()
+    """Angles upwards, one row of rays each."""
     min_m: float = 0.0
     """Shortest range [m]; nearer surfaces read −inf."""
     max_m: float = 0.0
     """Longest range [m]; farther surfaces read inf."""
     noise: Noise = Noise()
+    """Noise of each range [m]."""
     visibility_mask: int = EVERY_BIT
     """Mask of gpu_ray sensors: they see the visuals whose flags share a bit with it."""
 
 
 class OrientationReference(Struct, frozen=True, kw_only=True):
     """Reference frame of an IMU's orientation."""
+
+    __module__ = "trundle"
 
     localization: str = "CUSTOM"
     """ENU, NED, NWU, GRAV_UP, GRAV_DOWN or CUSTOM."""
@@ -55,6 +61,7 @@ class OrientationReference(Struct, frozen=True, kw_only=True):
     gravity_x: Vector3 = (1.0, 0.0, 0.0)
     """x axis of GRAV_UP, whose z points against gravity, and of GRAV_DOWN, whose z points along it."""
     gravity_parent_frame: str = ""
+    """Frame of `gravity_x`: "world", or empty: the sensor's initial frame."""
 
 
 class ImuNoise(Struct, frozen=True, kw_only=True):
@@ -63,9 +70,9 @@ class ImuNoise(Struct, frozen=True, kw_only=True):
     __module__ = "trundle"
 
     angular_velocity: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
-    """[rad/s]"""
+    """Noise of the angular velocity [rad/s]."""
     linear_acceleration: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
-    """[m/s²]"""
+    """Noise of the acceleration [m/s²]."""
     reference: OrientationReference | None = None
     """None: the sensor's initial frame."""
 
@@ -76,7 +83,9 @@ class GpsNoise(Struct, frozen=True, kw_only=True):
     __module__ = "trundle"
 
     horizontal: Noise = Noise()
+    """Noise to the east and to the north [m]."""
     vertical: Noise = Noise()
+    """Noise of the altitude [m]."""
 
 
 class ForceTorque(Struct, frozen=True, kw_only=True):

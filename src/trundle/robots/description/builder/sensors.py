@@ -40,7 +40,7 @@ SensorSettings: TypeAlias = (
 )
 """Settings of a sensor, all from `trundle.robots.model`, with SDF's defaults."""
 
-_SETTINGS: dict[str, type[SensorSettings]] = {
+SETTINGS: dict[str, type[SensorSettings]] = {
     **dict.fromkeys(CAMERA_TYPES, CameraOptics),
     **dict.fromkeys(("ray", "gpu_ray", "lidar", "gpu_lidar"), RangeScan),
     **dict.fromkeys(("gps", "navsat"), GpsNoise),
@@ -54,6 +54,7 @@ _SETTINGS: dict[str, type[SensorSettings]] = {
     "magnetometer": Magnetometer,
     "sonar": Sonar,
 }
+"""Type of sensor → its settings; the other types have none."""
 
 
 def make_sensor(
@@ -75,7 +76,7 @@ def make_sensor(
     types = CAMERA_TYPES | MEASURING
     if type_ not in types:
         raise UsageError(no_such(f"sensor {name!r}: no type", type_, sorted(types)))
-    settings_type = _SETTINGS.get(type_)
+    settings_type = SETTINGS.get(type_)
     if settings is None and settings_type is not None:
         settings = settings_type()
     if settings is not None and (settings_type is None or not isinstance(settings, settings_type)):
