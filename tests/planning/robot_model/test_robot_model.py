@@ -43,6 +43,14 @@ def test_groups_of_chains_joints_links_and_subgroups() -> None:
     assert both.subgroups == ("arm", "gripper")
 
 
+def test_a_group_with_a_gap_has_one_tip() -> None:
+    """As the groups of xarm_ros, which list each joint but the one to the flange."""
+    listed = "".join(f'<joint name="joint_{i}"/>' for i in range(1, 7)) + '<joint name="hand_joint"/>'
+    group = changed_arm("six_axis", srdf=f'<group name="gap">{listed}</group>').group("gap")
+
+    assert (group.tips, group.is_chain) == (("hand",), True)
+
+
 def test_end_effectors_are_attached_to_the_group_that_moves_them() -> None:
     model = arm("six_axis")
 

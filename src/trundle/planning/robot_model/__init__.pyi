@@ -13,3 +13,4 @@ from .srdf import (
     VirtualJointType as VirtualJointType,
 )
 from .srdf_reader import read_srdf as read_srdf
+from .srdf_writer import write_srdf as write_srdf

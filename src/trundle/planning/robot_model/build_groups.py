@@ -142,7 +142,6 @@ class GroupBuilder:
         end_effectors: Mapping[str, EndEffector],
     ) -> JointModelGroup:
         names = {joint.name for joint in joints}
-        children = {joint.parent_link for joint in joints}
         active = [joint for joint in joints if joint.is_active]
         is_part = {other for other, theirs in members.items() if other != name and names.issuperset(_names(theirs))}
         return JointModelGroup(
@@ -153,7 +152,7 @@ class GroupBuilder:
             all_variables=tuple(variable for joint in joints for variable in joint.variables),
             links=tuple(joint.child_link for joint in joints),
             updated_links=self._below(names),
-            tips=self._tips(joints, children),
+            tips=self._tips(joints),
             base=self._base(joints),
             is_chain=self._is_chain(joints),
             default_states={},
@@ -170,8 +169,15 @@ class GroupBuilder:
                 moved.add(joint.child_link)
         return tuple(joint.child_link for joint in self._joints if joint.child_link in moved)
 
-    def _tips(self, joints: list[JointModel], parents: set[str]) -> tuple[str, ...]:
-        return tuple(joint.child_link for joint in joints if joint.child_link not in parents)
+    def _tips(self, joints: list[JointModel]) -> tuple[str, ...]:
+        """Return the links below which no joint of the group is, also not after joints that it leaves out."""
+        above: set[str] = set()
+        for joint in joints:
+            link = joint.parent_link
+            while link and link not in above:
+                above.add(link)
+                link = self._holder[link].parent_link
+        return tuple(joint.child_link for joint in joints if joint.child_link not in above)
 
     def _base(self, joints: list[JointModel]) -> str:
         """Return the lowest link above all joints."""
