@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from trundle.app.cli import main
-from trundle.robots.packages import Packages
+from trundle.robots.packages import Packages, program_folders
 
 ROBOT = (
     "<robot name='arm'><link name='base'><inertial><mass value='1'/>"
@@ -95,3 +95,12 @@ def test_a_package_in_a_temporary_folder_is_not_the_robots_package(tmp_path: Pat
 
     assert packages.find_package("other") is None
     assert not packages.package_folders()
+
+
+def test_a_repository_with_a_src_of_its_own_is_built_by_the_workspace(tmp_path: Path) -> None:
+    package = tmp_path / "ws/src/repository/src/arm"
+    package.mkdir(parents=True)
+    built = tmp_path / "ws/devel/lib/arm"
+    built.mkdir(parents=True)
+
+    assert program_folders("arm", package, {}) == [built]

@@ -92,9 +92,8 @@ def build_prefixes(package: str, folder: Path, environment: Mapping[str, str]) -
     prefixes = [Path(entry) for entry in environment.get("CMAKE_PREFIX_PATH", "").split(os.pathsep) if entry]
     if folder.parent.name == "share":
         prefixes.append(folder.parent.parent)
-    sources = next((parent for parent in folder.parents if parent.name == "src"), None)
-    if sources is not None:
-        prefixes += [sources.parent / "devel", sources.parent / "install", sources.parent / "install" / package]
+    for base in (parent.parent for parent in folder.parents if parent.name == "src"):  # a repository may have src, too
+        prefixes += [base / "devel", base / "install", base / "install" / package]
     return prefixes
 
 
