@@ -137,7 +137,7 @@ def package(tmp_path: Path) -> Path:
         "from dynamic_reconfigure.parameter_generator_catkin import *\n"
         "gen = ParameterGenerator()\n"
         'modes = gen.enum([gen.const("Slow", int_t, 0, "little"), gen.const("Fast", int_t, 1, "much")], "speeds")\n'
-        'gen.add("flow", double_t, 1, "litres per second", 0.5, 0, 2)\n'
+        'gen.add("flow", double_t, 1, "the pump\'s litres per second", 0.5, 0, 2)\n'
         'gen.add("mode", int_t, 2, "speed", 0, 0, 1, edit_method=modes)\n'
         'gen.add_group("limits", state=False).add("name", str_t, 4, "of the pump")\n'
         'exit(gen.generate(PACKAGE, "pumps", "Pump"))\n'

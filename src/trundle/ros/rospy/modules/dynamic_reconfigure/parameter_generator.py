@@ -93,7 +93,6 @@ class ParameterGenerator:
         ) -> None:
             """Add a parameter; see `ParameterGenerator.add`."""
             check_name(name)
-            check_description(description)
             parameter: dict[str, Any] = {
                 "name": name,
                 "type": paramtype,
