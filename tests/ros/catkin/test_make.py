@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from trundle.app.cli import main
-from trundle.ros.catkin import NewPackage, create_package
+from trundle.ros.catkin import NewPackage, create_package, open_workspace
 
 _DEBIANS_TOOL = Path("/usr/bin/catkin_make")
 _VARIABLES = ("CMAKE_PREFIX_PATH", "LD_LIBRARY_PATH", "PATH", "PYTHONPATH", "ROS_PACKAGE_PATH")
@@ -256,3 +256,11 @@ def _sourced(shell: str, files: list[Path]) -> dict[str, str]:
     done = subprocess.run([shell, "-ec", "\n".join(lines)], env=env, capture_output=True, text=True, check=True)
     assert done.stderr == ""
     return dict(line.split("=", 1) for line in done.stdout.splitlines() if "=" in line)
+
+
+def test_a_package_of_rosbuild_is_not_built(workspace: Path) -> None:
+    old = workspace / "src/old"
+    old.mkdir()
+    (old / "manifest.xml").write_text("<package><description brief='old'/></package>")
+
+    assert "old" not in open_workspace(workspace).packages()

@@ -32,7 +32,11 @@ class Workspace:
     def packages(self) -> dict[str, Path]:
         """Return the packages of the sources, each after its build dependencies."""
         reachable = Packages({"ROS_PACKAGE_PATH": str(self.source)}, start=self.source).ros_packages()
-        packages = {name: folder for name, folder in reachable.items() if folder.is_relative_to(self.source)}
+        packages = {
+            name: folder
+            for name, folder in reachable.items()
+            if folder.is_relative_to(self.source) and (folder / "package.xml").is_file()  # not rosbuild's manifest.xml
+        }
         return {name: packages[name] for name in _in_order(packages)}
 
 
