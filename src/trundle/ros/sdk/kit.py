@@ -19,6 +19,7 @@ from trundle.base.ownership import home_folder, is_owned_by_user
 
 from . import message_header
 from .headers import Headers
+from .kit_cache import READY, mark_used, note_workspace, trim
 from .toolchain import Toolchain
 
 _ROOT = Path(message_header.__file__).parents[4]
@@ -69,9 +70,12 @@ def compiled_kit(toolchain: Toolchain, environment: Mapping[str, str], *, flags:
     except OSError as error:
         raise UsageError(f"cannot write {error.filename}: {error.strerror}") from None
     try:
-        if not (folder / "ready").exists():
+        if not (folder / READY).exists():
             _compile(sources, folder, toolchain, environment, flags)
-            (folder / "ready").touch()
+        mark_used(folder, f"{toolchain.compiler}\n{toolchain.version}")
+        trim(root, folder)
+    except OSError as error:
+        raise UsageError(f"cannot write {error.filename}: {error.strerror}") from None
     finally:
         lock.release()
     return Kit(sources, folder)
@@ -98,8 +102,15 @@ def link_programs(kit: Kit, packages: Mapping[str, Path], devel: Path) -> None:
     Args:
         kit: compiled kit.
         packages: name → folder of the workspace's packages.
-        devel: devel space.
+        devel: devel space, whose kit this is from now on.
+
+    Raises:
+        UsageError: a file cannot be written.
     """
+    try:
+        note_workspace(kit.folder, devel)
+    except OSError as error:
+        raise UsageError(f"cannot write {error.filename}: {error.strerror}") from None
     manifests = [(folder / "package.xml").read_text(encoding="utf-8", errors="replace") for folder in packages.values()]
     for program in sorted(kit.folder.glob("lib/*/*")):
         package = program.parent.name
@@ -142,39 +153,23 @@ def _digest(sources: Path, toolchain: Toolchain, flags: str) -> str:
 
 
 def header_packages() -> list[str]:
-    """Return the packages without a C++ library to link: those of messages, Python and tools."""
-    folders = [*(ASSETS / "messages/definitions").iterdir(), *(ASSETS / "messages/standard").iterdir()]
-    folders += (ASSETS / "messages/published").iterdir()
-    return sorted({*(path.stem for path in folders), *_WITHOUT_LIBRARIES} - _WITH_LIBRARIES)
+    """Return the packages without a C++ library to link: those of messages, of Python and of tools.
+
+    A package with messages and a library, such as navfn, is not among them.
+    """
+    messages = [*(ASSETS / "messages/definitions").iterdir(), *(ASSETS / "messages/standard").iterdir()]
+    messages += (ASSETS / "messages/published").iterdir()
+    python = Path(message_header.__file__).parents[1] / "rospy/modules"
+    return sorted({*(path.stem for path in (*messages, *python.iterdir())), *_TOOLS} - _LIBRARIES_OF_NAVIGATION)
 
 
-_WITHOUT_LIBRARIES = frozenset(
+_TOOLS = frozenset(
     {
-        *("catkin", "cmake_modules", "gencpp", "genlisp", "genmsg", "genpy", "message_generation", "message_runtime"),
-        *(
-            "python_qt_binding",
-            "rosbash",
-            "roscpp_serialization",
-            "roscpp_traits",
-            "rosgraph",
-            "roslaunch",
-            "rosmaster",
-        ),
-        *(
-            "rosmsg",
-            "rosnode",
-            "rosparam",
-            "rospy",
-            "rosservice",
-            "rostest",
-            "rostopic",
-            "rosunit",
-            "std_srvs",
-            "xacro",
-        ),
-        *("actionlib_msgs", "cpp_common", "geometry_msgs", "rqt_gui_py", "smach", "smach_ros", "tf_conversions"),
-        *("joint_state_publisher", "joint_state_publisher_gui", "roslint", "rosdoc_lite", "ros_environment"),
+        *("catkin", "cmake_modules", "gencpp", "genlisp", "message_generation", "message_runtime"),
+        *("ros_environment", "rosbash", "rosdoc_lite", "roslint", "rosmaster", "xacro"),
+        *("joint_state_publisher", "joint_state_publisher_gui", "rqt_gui_py"),
     }
 )
-_WITH_LIBRARIES = frozenset({"actionlib", "costmap_2d", "dynamic_reconfigure", "navfn", "nodelet", "tf", "topic_tools"})
-"""Packages of messages that have libraries, too, which programs mean."""
+"""Packages of programs and of catkin's generators, which manifests name, and nothing is linked with."""
+_LIBRARIES_OF_NAVIGATION = frozenset({"base_local_planner", "costmap_2d", "navfn", "teb_local_planner"})
+"""Packages with messages that Trundle has, and with libraries that it has not."""
