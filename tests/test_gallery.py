@@ -27,7 +27,7 @@ from trundle.ros import Messages, open_bag
 if not (ROOT / "docs/generate").is_dir():
     pytest.skip("the gallery is not part of the sdist", allow_module_level=True)
 sys.path.insert(0, str(ROOT / "docs"))
-from generate.gallery import GALLERY  # pyright: ignore[reportMissingImports]
+from generate.gallery import GALLERY
 
 TIMEOUT_S = 300.0
 

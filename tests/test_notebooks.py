@@ -24,7 +24,7 @@ def test_a_notebook_is_small_and_without_outputs(path: Path) -> None:
 def test_a_notebook_runs(path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     nbclient: Any = pytest.importorskip("nbclient", reason="Jupyter's client is not installed")
     pytest.importorskip("ipykernel", reason="Jupyter's kernel is not installed")
-    nbformat: Any = pytest.importorskip("nbformat")
+    nbformat: Any = pytest.importorskip("nbformat", reason="Jupyter's format is not installed")
     for variable in ("HOME", "JUPYTER_RUNTIME_DIR", "IPYTHONDIR"):
         monkeypatch.setenv(variable, str(tmp_path))
     notebook = nbformat.read(path, as_version=4)

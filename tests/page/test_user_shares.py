@@ -45,7 +45,7 @@ def _scanned(user: PanelUser) -> str:
 def test_a_phone_scans_a_link_that_drives_or_only_looks(user: PanelUser, chromium: Any, page: PageServer) -> None:
     addresses = network_addresses("0.0.0.0")
     if not addresses:
-        pytest.skip("this machine is in no network")
+        pytest.skip("this machine is on no network")
     control = _scanned(user)
     user.page.get_by_role("button", name="View only").click()
     user.page.get_by_text("can neither drive nor change anything").wait_for()

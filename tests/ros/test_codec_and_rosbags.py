@@ -128,10 +128,10 @@ def damaged(data: bytes, source: random.Random) -> list[bytes]:
 
 @pytest.mark.parametrize("seed", range(3))
 def test_bytes_and_values_match_rosbags(messages: Messages, types: list[str], seed: int) -> None:
-    store = messages._store  # pyright: ignore[reportPrivateUsage]
+    store = messages._store
     generator = MessageGenerator(store, seed)
     for kind in types:
-        key = messages._key(kind)  # pyright: ignore[reportPrivateUsage]
+        key = messages._key(kind)
         message = generator.message(key)
         data = bytes(store.serialize_ros1(message, key))
 
@@ -147,17 +147,17 @@ def test_bytes_and_values_match_rosbags(messages: Messages, types: list[str], se
 
 @pytest.mark.parametrize("seed", range(3))
 def test_damaged_bytes_are_refused_like_in_rosbags(messages: Messages, types: list[str], seed: int) -> None:
-    store = messages._store  # pyright: ignore[reportPrivateUsage]
+    store = messages._store
     generator = MessageGenerator(store, seed)
     for kind in types:
-        key = messages._key(kind)  # pyright: ignore[reportPrivateUsage]
+        key = messages._key(kind)
         for data in damaged(bytes(messages.serialize(generator.message(key))), generator.random):
             assert same(read_by_trundle(messages, data, kind), read_by_rosbags(store, data, key)), (kind, data)
 
 
 def test_the_types_have_fields_of_every_primitive_type(messages: Messages, types: list[str]) -> None:
-    store = messages._store  # pyright: ignore[reportPrivateUsage]
-    descs = [desc for kind in types for _, desc in store.fielddefs[messages._key(kind)][1]]  # pyright: ignore
+    store = messages._store
+    descs = [desc for kind in types for _, desc in store.fielddefs[messages._key(kind)][1]]
     inner = [desc if desc[0] in (Nodetype.BASE, Nodetype.NAME) else desc[1][0] for desc in descs]
     primitives = {desc[1][0] for desc in inner if desc[0] == Nodetype.BASE}
     assert primitives == set(SIZEMAP) - {"float128"} | {"string"}

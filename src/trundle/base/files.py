@@ -114,7 +114,7 @@ def read_standard_input() -> bytes:
     """
     stream = sys.stdin
     try:
-        descriptor = 0 if stream is None else stream.fileno()  # pyright: ignore[reportUnnecessaryComparison]
+        descriptor = 0 if stream is None else stream.fileno()
     except (AttributeError, io.UnsupportedOperation):  # a stream without a descriptor, such as a StringIO
         return sys.stdin.read().encode()
     return _joined(_chunks(descriptor, "<stdin>"), MAX_BYTES, "<stdin>")

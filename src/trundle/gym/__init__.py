@@ -14,6 +14,6 @@ except ModuleNotFoundError as error:
 
 from .registration import register_environments
 
-register_environments(_gymnasium.register)  # pyright: ignore[reportUnknownMemberType, reportUnknownArgumentType]
+register_environments(_gymnasium.register)
 
 __getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -52,7 +52,7 @@ class SimulationEnv(gymnasium.Env[Observed, Any]):
         info = {"unstable": True} if self.worlds.states.batch.unstable[0] else {}
         return self._observation(), float(step.rewards[0]), bool(step.terminated[0]), bool(step.truncated[0]), info
 
-    def render(self) -> NDArray[np.uint8] | None:  # pyright: ignore[reportIncompatibleMethodOverride]
+    def render(self) -> NDArray[np.uint8] | None:
         """Return a picture (height, width, 3), or None without a render mode."""
         return None if self._overview is None else self._overview.draw(0)
 

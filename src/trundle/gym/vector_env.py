@@ -87,7 +87,7 @@ class SimulationVectorEnv(VectorEnv[Observed, NDArray[np.float32], Any]):
         infos = {"unstable": unstable, "_unstable": unstable.copy()} if unstable.any() else {}
         return self.worlds.observe(), rewards, terminated, truncated, infos
 
-    def render(self) -> tuple[NDArray[np.uint8], ...] | None:  # pyright: ignore[reportIncompatibleMethodOverride]
+    def render(self) -> tuple[NDArray[np.uint8], ...] | None:
         """Return a picture (height, width, 3) of each world, or None without a render mode."""
         if self._overview is None:
             return None

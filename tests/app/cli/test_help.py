@@ -17,7 +17,7 @@ def _parsers(parser: argparse.ArgumentParser) -> Iterator[argparse.ArgumentParse
     """The parser and the parsers of its subcommands."""
     yield parser
     for action in parser._actions:
-        if isinstance(action, argparse._SubParsersAction):  # pyright: ignore[reportPrivateUsage]
+        if isinstance(action, argparse._SubParsersAction):
             yield from action.choices.values()
 
 

@@ -133,7 +133,7 @@ def test_unread_keys_are_bounded(tmp_path: Path) -> None:
         await session.sees(b"ready")
         for _ in range(100):
             session.terminal.type("x" * 10_000)
-        assert len(session.terminal._keys) <= 64 * 1024  # pyright: ignore[reportPrivateUsage]
+        assert len(session.terminal._keys) <= 64 * 1024
 
     code = "import tty, time; tty.setraw(0); print('ready', flush=True); time.sleep(1000)"
     run_in_terminal(tmp_path, python(code), interact)

@@ -62,7 +62,7 @@ def connected(port: int, *, origin: str | None = None, path: str = "/") -> Itera
         origin=Origin(origin) if origin else None,
         max_size=None,
         open_timeout=PATIENCE_S,
-        proxy=None,  # pyright: ignore[reportArgumentType]
+        proxy=None,
     ) as socket:
         assert isinstance(socket, ClientConnection)
         yield BridgeClient(socket)

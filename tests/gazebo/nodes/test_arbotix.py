@@ -100,7 +100,7 @@ def test_ten_seconds_of_a_command_end_alike_at_any_phase_of_the_cycle(phase_ms: 
             clock.ns = woken_ns
         return jitter.randrange(200_000, 1_200_000)
 
-    clock._late_ns = late_ns  # pyright: ignore[reportPrivateUsage]
+    clock._late_ns = late_ns
     run_to_end(ArbotixDriver(node, [], NodeHost()).run())  # pyright: ignore[reportArgumentType]
 
     position = node.sent("/odom")[-1].pose.pose.position

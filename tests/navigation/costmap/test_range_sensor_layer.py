@@ -54,7 +54,7 @@ class Sonar:
 
 
 @pytest.fixture(autouse=True)
-def _stamps_are_zero(monkeypatch: pytest.MonkeyPatch) -> None:  # pyright: ignore[reportUnusedFunction]
+def _stamps_are_zero(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("trundle.navigation.costmap.range_sensor_layer.to_nsec", lambda _: 0)
 
 

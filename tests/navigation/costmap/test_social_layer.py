@@ -58,7 +58,7 @@ class Room:
 
 
 @pytest.fixture(autouse=True)
-def _stamps_are_zero(monkeypatch: pytest.MonkeyPatch) -> None:  # pyright: ignore[reportUnusedFunction]
+def _stamps_are_zero(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("trundle.navigation.costmap.social_layer.to_nsec", lambda _: 0)
 
 

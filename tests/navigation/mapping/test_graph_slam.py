@@ -186,4 +186,4 @@ def test_a_damaged_graph_is_refused(change: dict[int, NDArray[np.float64]], mess
         arrays[place] = array
     slam = _mapping.GraphSlam(KartoSettings().graph_options())
     with pytest.raises(ValueError, match=message):
-        slam.restore(*arrays)  # pyright: ignore[reportArgumentType]  # arrays of two types
+        slam.restore(*arrays)

@@ -18,7 +18,7 @@ _LIMITS = {"max_vel_y": 0.0, "min_vel_y": 0.0, "vy_samples": 0, "sim_time": 2.0,
 
 
 @pytest.fixture(autouse=True)
-def _no_reconfigure(monkeypatch: pytest.MonkeyPatch) -> None:  # pyright: ignore[reportUnusedFunction]
+def _no_reconfigure(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("trundle.navigation.planners.dwa.reconfigure", lambda *_: None)
 
 

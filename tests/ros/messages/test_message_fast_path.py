@@ -80,9 +80,9 @@ def _result(make: Any) -> Any:
 
 def _text(value: Any) -> str:
     if isinstance(value, np.ndarray):
-        return f"{value.dtype} {value.shape} {value.tobytes()!r}"  # pyright: ignore[reportUnknownMemberType]
+        return f"{value.dtype} {value.shape} {value.tobytes()!r}"
     if isinstance(value, list):
-        return f"[{', '.join(map(_text, value))}]"  # pyright: ignore[reportUnknownArgumentType]
+        return f"[{', '.join(map(_text, value))}]"
     if hasattr(value, "__msgtype__"):
         return f"{value.__msgtype__} { ({name: _text(field) for name, field in vars(value).items()}) }"
     return f"{type(value).__name__} {value!r}"
@@ -93,12 +93,12 @@ def _text(value: Any) -> str:
 def test_the_fast_path_makes_the_same_messages_as_the_builder(
     messages: Messages, seed: int, unusual_ratio: float
 ) -> None:
-    store = messages._store  # pyright: ignore[reportPrivateUsage]
+    store = messages._store
     builder, generator = MessageBuilder(store), ValueGenerator(store, seed, unusual_ratio)
     for kind in [*messages.type_names(), "x_msgs/Word", "x_msgs/Tree"]:
-        key = messages._key(kind)  # pyright: ignore[reportPrivateUsage]
+        key = messages._key(kind)
         value = generator.message(key)
-        expected = _result(lambda: builder._message(key, value, 7, ""))  # pyright: ignore[reportPrivateUsage]  # noqa: B023
+        expected = _result(lambda: builder._message(key, value, 7, ""))  # noqa: B023
         assert _result(lambda: messages.new(kind, value, now_ns=7)) == expected, (kind, value)  # noqa: B023
 
 

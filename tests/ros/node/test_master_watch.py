@@ -11,7 +11,7 @@ STRING = "std_msgs/String"
 
 
 @pytest.fixture(autouse=True)
-def _frequent_look_ups(monkeypatch: pytest.MonkeyPatch) -> None:  # pyright: ignore[reportUnusedFunction]
+def _frequent_look_ups(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("trundle.ros.node.master_watch._PERIOD_S", 0.1)
 
 

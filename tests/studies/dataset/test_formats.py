@@ -172,7 +172,7 @@ def test_an_mcap_shard_has_the_messages_of_each_picture(folder: Path) -> None:
 
 
 def test_a_parquet_shard_has_pictures_and_records(folder: Path) -> None:
-    parquet = pytest.importorskip("pyarrow.parquet")
+    parquet = pytest.importorskip("pyarrow.parquet", reason="pyarrow, of the extra `sweep`, is not installed")
     table = parquet.read_table(folder / "parquet/000000-000002.parquet")
     assert json.loads(table.schema.metadata[b"huggingface"])["info"]["features"]["image"] == {"_type": "Image"}
     for row, record in zip(table.to_pylist(), records(folder), strict=True):

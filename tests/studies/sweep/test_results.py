@@ -31,7 +31,7 @@ def _result(row: int) -> RowResult:
 
 
 @pytest.fixture(autouse=True)
-def _small_groups(monkeypatch: pytest.MonkeyPatch) -> None:  # pyright: ignore[reportUnusedFunction]
+def _small_groups(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("trundle.studies.sweep.results.GROUP_ROWS", 8)
 
 

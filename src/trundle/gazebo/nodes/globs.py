@@ -12,7 +12,7 @@ def read_globs(value: object, parameter: str) -> tuple[str, ...]:
         ParamError: it is neither.
     """
     if isinstance(value, list):
-        parts = [str(item) for item in value]  # pyright: ignore[reportUnknownVariableType, reportUnknownArgumentType]
+        parts = [str(item) for item in value]
     elif isinstance(value, str):
         parts = value.strip().removeprefix("[").removesuffix("]").split(",")
     else:

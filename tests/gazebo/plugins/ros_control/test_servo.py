@@ -327,7 +327,7 @@ def test_checkpoints_restore_all_state(tmp_path: Path) -> None:
     arm.sim.restore(saved)
     for restore in restores:
         restore()
-    arm.hook._servo.restart(arm.sim.time_ns - arm.sim.step_ns)  # pyright: ignore[reportPrivateUsage]
+    arm.hook._servo.restart(arm.sim.time_ns - arm.sim.step_ns)
     arm.sim.step(90)
 
     assert arm.state_bytes() == after

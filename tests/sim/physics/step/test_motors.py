@@ -34,7 +34,7 @@ def _chain(folder: Path) -> Engine:
 
 
 def _rules(engine: Engine) -> PythonMotors:
-    return PythonMotors(engine.compiled, engine._data)  # pyright: ignore[reportPrivateUsage]
+    return PythonMotors(engine.compiled, engine._data)
 
 
 def _command(motors: Motors | PythonMotors, random_: random.Random) -> None:

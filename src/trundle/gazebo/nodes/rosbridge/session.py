@@ -84,7 +84,7 @@ class Session:
         if not isinstance(message, dict):
             self._status.report("error", f"Expected a JSON object but received a {type(message)}")
             return
-        fields: dict[str, Any] = message  # pyright: ignore[reportUnknownVariableType]
+        fields: dict[str, Any] = message
         key, name = fields.get("id"), fields.get("op")
         operation = self._operations.get(name) if isinstance(name, str) else None
         names = list(self._operations)
