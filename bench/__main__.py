@@ -29,6 +29,7 @@ BENCHES = {
     "contacts": "piles, walls and contact sensors",
     "house": "a furnished house",
     "images": "image topics",
+    "kinematics": "inverse kinematics of an arm",
     "navigation": "amcl and move_base in a house, twenty tours",
     "renderer": "pictures and scans against MuJoCo and PyBullet",
     "dataset": "labelled pictures",
