@@ -17,6 +17,7 @@
 #include "manipulability.h"
 #include "pose_solver.h"
 #include "state_check.h"
+#include "tree_kinematics.h"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -88,51 +89,25 @@ LinkTree tree_of(const Whole& joints, const Table& numbers) {
   return LinkTree(std::move(made));
 }
 
-std::size_t variable_count(const LinkTree& tree) {
-  int count = 0;
-  for (std::size_t i = 0; i < tree.size(); ++i) {
-    const TreeJoint& joint = tree.joint(i);
-    const int size = joint.kind == JointKind::kFixed      ? 0
-                     : joint.kind == JointKind::kPlanar   ? 3
-                     : joint.kind == JointKind::kFloating ? 7
-                                                          : 1;
-    count = std::max(count, joint.variable + size);
-  }
-  return static_cast<std::size_t>(count);
-}
-
-class TreeKinematics {
- public:
-  TreeKinematics(const Whole& joints, const Table& numbers)
-      : tree_(tree_of(joints, numbers)), variables_(variable_count(tree_)) {}
-
-  const LinkTree& tree() const { return tree_; }
-  std::size_t variables() const { return variables_; }
-
-  // (states, links, 7)
-  nb::object link_poses(const Table& states) const {
-    if (states.shape(1) != variables_) throw nb::value_error("a state holds every variable");
-    const std::size_t count = states.shape(0), links = tree_.size();
-    std::vector<double> rows(count * links * 7);
-    {
-      const nb::gil_scoped_release unlocked;
-      std::vector<Rigid> poses;
-      for (std::size_t i = 0; i < count; ++i) {
-        tree_.compute({states.data() + i * variables_, variables_}, poses);
-        for (std::size_t k = 0; k < links; ++k) {
-          double* row = rows.data() + 7 * (i * links + k);
-          row[0] = poses[k].p.x, row[1] = poses[k].p.y, row[2] = poses[k].p.z;
-          write_quaternion(poses[k].r, row + 3);
-        }
+// (states, links, 7)
+nb::object link_poses(const TreeKinematics& kinematics, const Table& states) {
+  if (states.shape(1) != kinematics.variables()) throw nb::value_error("a state holds every variable");
+  const std::size_t count = states.shape(0), links = kinematics.tree().size();
+  std::vector<double> rows(count * links * 7);
+  {
+    const nb::gil_scoped_release unlocked;
+    std::vector<Rigid> poses;
+    for (std::size_t i = 0; i < count; ++i) {
+      kinematics.tree().compute({states.data() + i * kinematics.variables(), kinematics.variables()}, poses);
+      for (std::size_t k = 0; k < links; ++k) {
+        double* row = rows.data() + 7 * (i * links + k);
+        row[0] = poses[k].p.x, row[1] = poses[k].p.y, row[2] = poses[k].p.z;
+        write_quaternion(poses[k].r, row + 3);
       }
     }
-    return array_of(std::move(rows), {count, links, 7});
   }
-
- private:
-  LinkTree tree_;
-  std::size_t variables_;
-};
+  return array_of(std::move(rows), {count, links, 7});
+}
 
 class GroupKinematics {
  public:
@@ -271,8 +246,13 @@ void bind_kinematics(nb::module_& module) {
       .def_ro("attempts", &PoseSolution::attempts)
       .def_ro("refused", &PoseSolution::refused);
   nb::class_<TreeKinematics>(module, "TreeKinematics")
-      .def(nb::init<const Whole&, const Table&>(), "joints"_a, "numbers"_a)
-      .def("link_poses", &TreeKinematics::link_poses, "states"_a);
+      .def(
+          "__init__",
+          [](TreeKinematics* self, const Whole& joints, const Table& numbers) {
+            new (self) TreeKinematics(tree_of(joints, numbers));
+          },
+          "joints"_a, "numbers"_a)
+      .def("link_poses", link_poses, "states"_a);
   nb::class_<GroupKinematics>(module, "GroupKinematics")
       .def(nb::init<const TreeKinematics&, int, const Numbers&, const Whole&, const Table&>(), "kinematics"_a, "link"_a,
            "tip"_a, "columns"_a, "limits"_a)

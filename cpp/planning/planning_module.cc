@@ -2,5 +2,10 @@
 #include <nanobind/nanobind.h>
 
 #include "kinematics_bindings.h"
+#include "scene_bindings.h"
 
-NB_MODULE(_planning, module) { trundle::planning::bind_kinematics(module); }
+NB_MODULE(_planning, module) {
+  trundle::planning::bind_kinematics(module);
+  trundle::planning::bind_scene(module);
+  trundle::planning::bind_planners(module);
+}

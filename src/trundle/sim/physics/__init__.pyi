@@ -2,8 +2,14 @@ from .compile.compiled_world import CompiledWorld as CompiledWorld
 from .compile.compiler import compile_world as compile_world
 from .compile.mjcf import compile_mjcf as compile_mjcf
 from .compile.recompiler import Recompiler as Recompiler
+from .compile.shape_pair import MAX_CORNERS as MAX_CORNERS, ShapePair as ShapePair
 from .compile.wheels import report_wheels as report_wheels
 from .convex.background import BackgroundCutting as BackgroundCutting
+from .convex.planning_hulls import (
+    convex_parts as convex_parts,
+    hull_corners as hull_corners,
+    moving_pieces as moving_pieces,
+)
 from .egl_renderer import EglRenderer as EglRenderer
 from .step.batch import Batch as Batch, WorldRow as WorldRow
 from .step.contact import Contact as Contact, Contacts as Contacts

@@ -1,0 +1,5 @@
+"""Planners: paths of groups of joints without collision."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,0 +1,22 @@
+from .constraints import (
+    Constraints as Constraints,
+    JointConstraint as JointConstraint,
+    OrientationConstraint as OrientationConstraint,
+    OrientationParameterization as OrientationParameterization,
+    PositionConstraint as PositionConstraint,
+    ViewDirection as ViewDirection,
+    VisibilityConstraint as VisibilityConstraint,
+    joint_goal as joint_goal,
+    pose_goal as pose_goal,
+)
+from .error_codes import ErrorCode as ErrorCode, PlanningFailure as PlanningFailure
+from .motion_plan import plan as plan
+from .requests import (
+    MotionPlan as MotionPlan,
+    MotionPlanRequest as MotionPlanRequest,
+    PlannerSettings as PlannerSettings,
+    PlanStatistics as PlanStatistics,
+    StartStateFixes as StartStateFixes,
+    WorkspaceBounds as WorkspaceBounds,
+    ompl_settings as ompl_settings,
+)
