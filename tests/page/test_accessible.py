@@ -19,7 +19,7 @@ SIDES = ("World", "Displays", "Inspector", "Views", "Tool properties")
 RVIZ = rviz_text(
     {"Class": "rviz/LaserScan", "Name": "Scan", "Enabled": True, "Topic": "/scan"},
     {"Class": "rviz/Group", "Name": "Group", "Enabled": True, "Displays": [{"Class": "rviz/Grid", "Enabled": True}]},
-    {"Class": "moveit_rviz_plugin/MotionPlanning", "Name": "Planning", "Enabled": True},
+    {"Class": "jsk_rviz_plugins/OverlayText", "Name": "Planning", "Enabled": True},
 )
 
 pytestmark = [pytest.mark.slow, needs_client, needs_axe]

@@ -16,7 +16,7 @@ TIMEOUT_MS = 60_000
 RVIZ = """Visualization Manager:
   Displays:
     - {Class: rviz/Grid, Name: Floor, Enabled: true, Cell Size: 1}
-    - {Class: moveit_rviz_plugin/MotionPlanning, Name: Planning, Enabled: true}
+    - {Class: jsk_rviz_plugins/OverlayText, Name: Planning, Enabled: true}
   Global Options: {Fixed Frame: map}
 """
 
@@ -147,7 +147,7 @@ def test_a_display_is_edited_undone_and_saved(open_page: Open, drive_page: PageS
 
     assert isinstance(requests[0].action, SaveRviz)
     assert "Cell Size: 2.5" in requests[0].action.text
-    assert "moveit_rviz_plugin/MotionPlanning" in requests[0].action.text  # unknown displays are kept
+    assert "jsk_rviz_plugins/OverlayText" in requests[0].action.text  # unknown displays are kept
     assert tab.get_by_text("not supported").first.is_visible()
 
 

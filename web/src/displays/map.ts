@@ -10,26 +10,13 @@ import { Display } from "./display";
 import { MapObject } from "./maps/map_object";
 import { readMap, writeUpdate, type OccupancyMap } from "./maps/occupancy_map";
 import { COLOR_SCHEMES, type ColorScheme } from "./maps/palette";
-import { BoolProperty, EnumProperty, NumberProperty, StringProperty, TopicProperty } from "../rviz/properties";
+import { BoolProperty, EnumProperty, NumberProperty, ReadOut, TopicProperty } from "../rviz/properties";
 import { register } from "./registry";
 import { quaternion, vector } from "../frames/valid";
 import { watch } from "./watch";
 
 const TYPE = "nav_msgs/OccupancyGrid";
 const UPDATE_TYPE = "map_msgs/OccupancyGridUpdate";
-
-/** Value from a message; shown, not saved. */
-class ReadOnlyProperty extends StringProperty {
-  constructor(name: string, description: string) {
-    super(name, "", { readOnly: true, description });
-  }
-  override encode(): string {
-    return "";
-  }
-  override save(): undefined {
-    return undefined;
-  }
-}
 
 export class MapDisplay extends Display {
   readonly className = "rviz/Map";
@@ -39,11 +26,15 @@ export class MapDisplay extends Display {
   readonly drawBehind = this.add(
     new BoolProperty("Draw Behind", false, { description: "Draw the map behind everything else." }),
   );
-  private readonly resolution = this.add(new ReadOnlyProperty("Resolution", "[m] of a cell"));
-  private readonly width = this.add(new ReadOnlyProperty("Width", "Cells along x"));
-  private readonly height = this.add(new ReadOnlyProperty("Height", "Cells along y"));
-  private readonly position = this.add(new ReadOnlyProperty("Position", "Corner of the map in its frame [m]"));
-  private readonly orientation = this.add(new ReadOnlyProperty("Orientation", "Quaternion x; y; z; w in its frame"));
+  private readonly resolution = this.add(new ReadOut("Resolution", "", { description: "[m] of a cell" }));
+  private readonly width = this.add(new ReadOut("Width", "", { description: "Cells along x" }));
+  private readonly height = this.add(new ReadOut("Height", "", { description: "Cells along y" }));
+  private readonly position = this.add(
+    new ReadOut("Position", "", { description: "Corner of the map in its frame [m]" }),
+  );
+  private readonly orientation = this.add(
+    new ReadOut("Orientation", "", { description: "Quaternion x; y; z; w in its frame" }),
+  );
   readonly unreliable = this.add(
     new BoolProperty("Unreliable", false, { description: "Kept for rviz, without effect here." }),
   );

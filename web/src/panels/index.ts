@@ -7,6 +7,7 @@ import { imagesPanel } from "./images";
 import { jointsPanel } from "./joints";
 import { joystickPanel } from "./joystick";
 import { logPanel } from "./log";
+import { motionPlanningPanel } from "./motion_planning";
 import { navigationPanel } from "./navigation";
 import { nodesPanel } from "./nodes";
 import type { Panel } from "./panel";
@@ -39,5 +40,6 @@ export const panels: readonly Panel[] = [
   steeringPanel,
   joystickPanel,
   navigationPanel,
+  motionPlanningPanel,
   terminalPanel,
 ];

@@ -4,11 +4,8 @@ import type { JSX } from "preact";
 
 import { canControl, Controls } from "../page/view_only";
 import { Button } from "../theme/button";
-import { fixed } from "../theme/format";
-import { Name } from "../theme/name";
-import { NumberField } from "../theme/number_field";
-import { Slider } from "../theme/slider";
-import { jointsState, shownUnit, type JointSlider } from "./joints/joint_sliders";
+import { JointRow } from "./joints/joint_row";
+import { jointsState } from "./joints/joint_sliders";
 import type { Panel, PanelProps } from "./panel";
 
 function Joints({ page }: PanelProps): JSX.Element {
@@ -38,50 +35,6 @@ function Joints({ page }: PanelProps): JSX.Element {
           </section>
         ))}
       </Controls>
-    </div>
-  );
-}
-
-function JointRow({ slider, isDegrees }: { readonly slider: JointSlider; readonly isDegrees: boolean }): JSX.Element {
-  const [factor, unit] = shownUnit(slider.isLinear, isDegrees);
-  const decimals = unit === "°" ? 1 : 3;
-  const text = (value: number): string => fixed(value * factor, decimals);
-  return (
-    <div class="joint">
-      <div class="w">
-        <Name text={slider.name} />
-        <span class="sp" />
-        <span class="narrow">
-          <NumberField
-            label={slider.name}
-            unit={unit}
-            class="small num bare"
-            value={slider.position * factor}
-            decimals={decimals}
-            min={slider.hasLimits ? slider.lower * factor : undefined}
-            max={slider.hasLimits ? slider.upper * factor : undefined}
-            onCommit={(value) => slider.set(value / factor)}
-          />
-        </span>
-      </div>
-      <Slider
-        label={slider.name}
-        value={slider.position}
-        lower={slider.lower}
-        upper={slider.upper}
-        text={`${text(slider.position)} ${unit}`}
-        onInput={slider.set}
-      />
-      <div class="limits">
-        {slider.hasLimits ? (
-          <>
-            <span>{text(slider.lower)}</span>
-            <span>{text(slider.upper)}</span>
-          </>
-        ) : (
-          <span>no limits</span>
-        )}
-      </div>
     </div>
   );
 }

@@ -162,6 +162,20 @@ export class StringProperty extends Property<string> {
   }
 }
 
+/** A text that is computed: shown, and never saved. */
+export class ReadOut extends Property<string> {
+  readonly kind = "text";
+  constructor(name: string, initial = "", options: PropertyOptions = {}) {
+    super(name, initial, { ...options, readOnly: true });
+  }
+  encode(): undefined {
+    return undefined;
+  }
+  decode(): boolean {
+    return true;
+  }
+}
+
 /** One of a list of words; `choices` may change while it runs (channels of a cloud). */
 export class EnumProperty extends Property<string> {
   readonly kind = "choice";

@@ -46,9 +46,21 @@ export class Instances extends InstancedMesh<BufferGeometry, ShapeMaterial> {
 
   override dispose(): this {
     super.dispose();
-    this.geometry.dispose();
+    this.freeOwn();
     this.material.dispose();
     return this;
+  }
+
+  /** Free the buffers that no other copies of the geometry use. */
+  private freeOwn(): void {
+    const { geometry } = this;
+    const shared = Object.entries(geometry.attributes).filter(([, attribute]) => attribute !== this.rgba);
+    const { index } = geometry;
+    for (const [name] of shared) geometry.deleteAttribute(name);
+    geometry.index = null;
+    geometry.dispose();
+    for (const [name, attribute] of shared) geometry.setAttribute(name, attribute);
+    geometry.index = index;
   }
 
   private grow(capacity: number): void {
@@ -57,7 +69,7 @@ export class Instances extends InstancedMesh<BufferGeometry, ShapeMaterial> {
     const rgba = new InstancedBufferAttribute(new Float32Array(capacity * 4).fill(1), 4);
     rgba.array.set(this.rgba.array);
     super.dispose(); // frees the old buffers; the mesh itself goes on
-    this.geometry.dispose();
+    this.freeOwn();
     this.instanceMatrix = matrices;
     this.rgba = rgba;
     this.geometry.setAttribute("instanceRgba", rgba);

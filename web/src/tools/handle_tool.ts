@@ -12,7 +12,7 @@ import { BaseTool, type ToolContext } from "./base_tool";
 import type { Request } from "../protocol/connection";
 import type { Drawn, HandleTarget } from "./handles/handle_target";
 import { copyOf, targetOf } from "./handles/selection_target";
-import { LatestRequest } from "./handles/latest_request";
+import { LatestRequest } from "../protocol/latest_request";
 import { SelectionHandles, type Handle } from "./handles/selection_handles";
 import { selectionOf } from "./picked";
 import type { PointerInput } from "../scene/pointer_input";

@@ -156,18 +156,18 @@ describe("the list", () => {
     const { store } = makeStore();
     store.load(
       file(`
-    - Class: moveit_rviz_plugin/MotionPlanning
-      Name: MotionPlanning
-      Planning Group: arm # ours
+    - Class: jsk_rviz_plugins/OverlayText
+      Name: Text
+      Font: large # ours
     - Class: rviz/Probe
       Name: Probe
 `),
     );
     expect(store.unsupported.value[0]).toMatchObject({
-      className: "moveit_rviz_plugin/MotionPlanning",
-      reason: "a plugin of MoveIt; only rviz's own displays are shown here",
+      className: "jsk_rviz_plugins/OverlayText",
+      reason: "a plugin of jsk_rviz_plugins; only rviz's and MoveIt's displays are shown here",
     });
-    expect(store.save()).toContain("Planning Group: arm # ours");
+    expect(store.save()).toContain("Font: large # ours");
   });
 
   it("offers the topics that no display shows, not even one in a group", () => {

@@ -64,6 +64,7 @@ class FakeScene {
   readonly displays = new Group();
   readonly world = new Group();
   readonly camera = signal(new PerspectiveCamera());
+  readonly paneSize = signal({ width: 1000, height: 800 });
   readonly labels: Label[] = [];
   frames = 0;
 

@@ -36,8 +36,8 @@ function showGraph(page: FakePage): void {
   displays.show("rviz/MarkerArray", null, "/markers").enabled.value.value = false;
   displays.unsupported.value = [
     {
-      className: "moveit_rviz_plugin/MotionPlanning",
-      name: "MotionPlanning",
+      className: "jsk_rviz_plugins/OverlayText",
+      name: "OverlayText",
       reason: "MoveIt's plug-ins are not available here.",
     },
   ];

@@ -2,7 +2,7 @@ import { Quaternion, Vector3 } from "three";
 import { expect, it } from "vitest";
 
 import type { Transform } from "../../src/frames/transform";
-import { LatestRequest } from "../../src/tools/handles/latest_request";
+import { LatestRequest } from "../../src/protocol/latest_request";
 import { snapToAngle, snapToGrid } from "../../src/tools/handles/snapping";
 
 const Z = new Vector3(0, 0, 1);

@@ -15,7 +15,8 @@ import { TextField } from "../../theme/text_field";
 import type { TreeRow } from "../../theme/tree";
 import { isSilence } from "../notices/notices";
 import type { Page } from "../../page/page";
-import { change, hex } from "./property_editor";
+import { changeProperty } from "../../page/change_property";
+import { hex } from "./property_editor";
 import { propertyRows, type RowsOf } from "./property_rows";
 
 export interface DisplayRowsOf extends RowsOf {
@@ -109,7 +110,7 @@ function DisplayRow({ display, rows }: { readonly display: Display; readonly row
         label={`Show ${display.name.value}`}
         checked={display.enabled.value.value}
         tabIndex={-1}
-        onChange={(on) => change(page, display.enabled, on)}
+        onChange={(on) => changeProperty(page, display.enabled, on)}
       />
       {isGroup ? <Icon name="group" /> : <StatusShape level={isSilent(display) ? "none" : display.level} />}
       {rows.renaming === display ? (

@@ -12,7 +12,7 @@ import { Tree, type TreeRow } from "../../theme/tree";
 import { AddDrawer } from "./add_drawer";
 import { displayKey, displayRows, faultRow, type DisplayRowsOf } from "./display_rows";
 import { globalRows } from "./global_rows";
-import { change } from "./property_editor";
+import { changeProperty } from "../../page/change_property";
 import { RvizFoot } from "./rviz_foot";
 import type { Shell } from "../shell";
 
@@ -127,7 +127,7 @@ function keysOfDisplay(shell: Shell, display: Display, event: KeyboardEvent, ren
   if (event.altKey && (event.key === "ArrowUp" || event.key === "ArrowDown")) {
     const to = at + (event.key === "ArrowUp" ? -1 : 1);
     if (at >= 0 && to >= 0 && to < displays.displays.peek().length) displays.move(display, to);
-  } else if (event.key === " ") change(shell.page, display.enabled, !display.enabled.value.peek());
+  } else if (event.key === " ") changeProperty(shell.page, display.enabled, !display.enabled.value.peek());
   else if (event.key === "Delete") remove(shell, display);
   else if (event.key === "F2") rename();
   else return;

@@ -23,17 +23,8 @@ import { parseNumber, plain } from "../../theme/format";
 import { NumberField } from "../../theme/number_field";
 import { Select } from "../../theme/select";
 import { TextField } from "../../theme/text_field";
+import { changeProperty } from "../../page/change_property";
 import type { Page } from "../../page/page";
-
-/** Set a property from a file's value, undoable; a value of the wrong kind changes nothing. */
-export function change(page: Page, property: Property<unknown>, yaml: Yaml): void {
-  const before = property.value.peek();
-  page.displays.edit(
-    `Change of ${property.name}`,
-    () => property.decode(yaml),
-    () => (property.value.value = before),
-  );
-}
 
 export interface EditorProps {
   readonly page: Page;
@@ -41,7 +32,7 @@ export interface EditorProps {
 }
 
 export function PropertyEditor({ page, property }: EditorProps): JSX.Element | null {
-  const set = (yaml: Yaml): void => change(page, property, yaml);
+  const set = (yaml: Yaml): void => changeProperty(page, property, yaml);
   if (property.options.readOnly === true) return <span class="t2">{shown(property.value.value)}</span>;
   if (property instanceof BoolProperty) {
     return <Checkbox label={property.name} checked={property.value.value} tabIndex={-1} onChange={set} />;

@@ -69,6 +69,14 @@ export class ControlView extends Group {
     return result.applyQuaternion(reference);
   }
 
+  /** Blend a color over those of the shapes, components and weight 0…1. */
+  tint(red: number, green: number, blue: number, share: number): void {
+    this.traverse((part) => {
+      if (part instanceof Mesh && part.material instanceof ShapeMaterial)
+        part.material.setTint(red, green, blue, share);
+    });
+  }
+
   override dispose(): void {
     for (const view of this.views) view.dispose();
   }

@@ -8,6 +8,7 @@ import { nanoseconds } from "../../protocol/ros_types";
 import type { Label, Selectable, TargetEvent } from "../../scene/scene_view";
 import type { DisplayContext } from "../display";
 import type { ViewParts } from "../markers/marker_views";
+import type { Rgb } from "../../rviz/properties";
 import { Axes } from "../../shapes/axes";
 import { FeedbackEvent, InteractionMode } from "./control_modes";
 import { ControlView, type ControlEvents } from "./control_view";
@@ -95,6 +96,27 @@ export class InteractiveMarkerView extends Group implements ControlEvents {
     if (named === (this.label !== null)) return;
     this.label?.remove();
     this.label = named ? this.context.scene.addLabel(this.poseGroup, this.marker.description) : null;
+  }
+
+  get isDragged(): boolean {
+    return this.drag !== null;
+  }
+
+  /** Position of the handles in the fixed frame. */
+  handlePosition(result: Vector3): Vector3 {
+    return this.poseGroup.getWorldPosition(result);
+  }
+
+  /** Show the handles larger or smaller than the marker says. */
+  resize(factor: number): void {
+    this.poseGroup.scale.setScalar(factor);
+  }
+
+  /** Color a control's shapes; null: their own colors. */
+  tint(control: string, color: Rgb | null): void {
+    const [red, green, blue] = color ?? [0, 0, 0];
+    for (const view of this.controls)
+      if (view.control.name === control) view.tint(red / 255, green / 255, blue / 255, color === null ? 0 : 1);
   }
 
   override dispose(): void {

@@ -15,6 +15,7 @@ import {
 
 import { meshLibrary } from "../meshes/mesh_library";
 import type { Connection } from "../../protocol/connection";
+import type { Rgb } from "../../rviz/properties";
 import { ShapeMaterial } from "../../shapes/shape_material";
 import { BOX, CYLINDER, SPHERE } from "../../shapes/solids";
 import type { Geometry, RobotMaterial, RobotShape } from "./urdf";
@@ -29,6 +30,8 @@ export class LinkShapes extends Group {
   private readonly materials: ShapeMaterial[] = [];
   private readonly colors = new Map<ShapeMaterial, readonly [number, number, number, number]>();
   private alpha = 1;
+  /** Color in place of the materials' own, 0…255; null: none. */
+  private override: Rgb | null = null;
   private isPlaced = true;
   private isDisposed = false;
 
@@ -49,6 +52,13 @@ export class LinkShapes extends Group {
     for (const material of this.materials) this.paint(material);
   }
 
+  /** Color all shapes, as rviz colors the links of a planned state; null: their own colors. */
+  setColor(color: Rgb | null): void {
+    if (color?.join() === this.override?.join()) return;
+    this.override = color;
+    for (const material of this.materials) this.paint(material);
+  }
+
   /** Show the link in white without a transform, as rviz does; true: changed. */
   setPlaced(isPlaced: boolean): boolean {
     if (isPlaced === this.isPlaced) return false;
@@ -64,6 +74,8 @@ export class LinkShapes extends Group {
   }
 
   private paint(material: ShapeMaterial): void {
+    const [r, g, b] = this.override ?? [0, 0, 0];
+    material.setTint(r / 255, g / 255, b / 255, this.override === null ? 0 : 1);
     const [red, green, blue, alpha] = this.isPlaced
       ? (this.colors.get(material) ?? SHADED_RED)
       : ([1, 1, 1, 1] as const);

@@ -6,7 +6,7 @@ import type { Transform } from "../../frames/transform";
 import type { Connection } from "../../protocol/connection";
 import type { Selectable } from "../../scene/scene_view";
 import type { KeyedProperty } from "../keyed_property";
-import { BoolProperty, GroupProperty, NumberProperty } from "../../rviz/properties";
+import { BoolProperty, GroupProperty, NumberProperty, type Rgb } from "../../rviz/properties";
 import { Axes } from "../../shapes/axes";
 import { Trail } from "../../shapes/trail";
 import { LinkShapes, type OnMissing } from "./link_shape";
@@ -61,6 +61,12 @@ export class LinkView extends Group {
     this.quaternion.copy(pose.orientation);
     this.trail?.follow(pose.position);
     return true;
+  }
+
+  /** Color all shapes; null: their own colors. */
+  setColor(color: Rgb | null): void {
+    this.visuals.setColor(color);
+    this.collisions.setColor(color);
   }
 
   /** Show the link by the robot's properties and its own. */

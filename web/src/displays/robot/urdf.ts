@@ -2,7 +2,7 @@
 
 type Triple = readonly [number, number, number];
 
-interface Origin {
+export interface Origin {
   readonly xyz: Triple;
   /** Roll, pitch, yaw about fixed axes [rad]. */
   readonly rpy: Triple;
@@ -41,6 +41,17 @@ export interface RobotJoint {
   readonly axis: Triple;
   /** Largest effort [N, N·m]; null: not given. */
   readonly effort: number | null;
+  /** Limits of the position [rad, m]; null: not given. */
+  readonly lower: number | null;
+  readonly upper: number | null;
+  readonly mimic: Mimic | null;
+}
+
+/** A joint follows another one: position = multiplier × the other's + offset. */
+export interface Mimic {
+  readonly joint: string;
+  readonly multiplier: number;
+  readonly offset: number;
 }
 
 export interface Robot {
@@ -72,7 +83,9 @@ export function readUrdf(text: string): Robot {
 }
 
 function readJoint(node: Element): RobotJoint {
-  const limit = first(node, "limit")?.getAttribute("effort");
+  const limit = first(node, "limit");
+  const bound = (name: string): number | null => optional(limit?.getAttribute(name));
+  const mimic = first(node, "mimic");
   return {
     name: attribute(node, "name"),
     type: attribute(node, "type"),
@@ -80,7 +93,14 @@ function readJoint(node: Element): RobotJoint {
     child: attribute(first(node, "child"), "link"),
     origin: readOrigin(node),
     axis: triple(first(node, "axis")?.getAttribute("xyz"), [1, 0, 0]),
-    effort: limit === undefined || limit === null ? null : number(limit, 0),
+    effort: bound("effort"),
+    lower: bound("lower"),
+    upper: bound("upper"),
+    mimic: mimic && {
+      joint: attribute(mimic, "joint"),
+      multiplier: number(mimic.getAttribute("multiplier"), 1),
+      offset: number(mimic.getAttribute("offset"), 0),
+    },
   };
 }
 
@@ -134,7 +154,7 @@ function readOrigin(node: Element): Origin {
   return { xyz: triple(origin?.getAttribute("xyz"), [0, 0, 0]), rpy: triple(origin?.getAttribute("rpy"), [0, 0, 0]) };
 }
 
-function children(node: Element, name: string): Element[] {
+export function children(node: Element, name: string): Element[] {
   return [...node.children].filter((child) => child.nodeName === name);
 }
 
@@ -142,7 +162,7 @@ function first(node: Element, name: string): Element | null {
   return children(node, name)[0] ?? null;
 }
 
-function attribute(node: Element | null, name: string): string {
+export function attribute(node: Element | null, name: string): string {
   return node?.getAttribute(name)?.trim() ?? "";
 }
 
@@ -157,6 +177,11 @@ function numbers(text: string | null | undefined): number[] {
 function number(text: string | null, otherwise: number): number {
   const value = text === null ? NaN : Number.parseFloat(text);
   return Number.isFinite(value) ? value : otherwise;
+}
+
+/** A number that may be absent; text that is no number is 0. */
+function optional(text: string | null | undefined): number | null {
+  return text === null || text === undefined ? null : number(text, 0);
 }
 
 function triple(text: string | null | undefined, otherwise: Triple): Triple {

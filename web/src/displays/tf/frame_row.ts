@@ -4,21 +4,7 @@ import { Object3D, Vector3 } from "three";
 
 import { looksSame, type Transform } from "../../frames/transform";
 import type { Label, SceneView } from "../../scene/scene_view";
-import { BoolProperty, GroupProperty, Property, type Yaml } from "../../rviz/properties";
-
-/** Text that is shown and not saved. */
-class ReadOut extends Property<string> {
-  readonly kind = "text";
-  constructor(name: string) {
-    super(name, "", { readOnly: true });
-  }
-  encode(): undefined {
-    return undefined;
-  }
-  decode(): boolean {
-    return true;
-  }
-}
+import { BoolProperty, GroupProperty, ReadOut, type Yaml } from "../../rviz/properties";
 
 export class FrameRow extends BoolProperty {
   readonly parent = this.add(new ReadOut("Parent"));

@@ -14,6 +14,28 @@ export type AccelStamped = {
   readonly accel: Accel;
 };
 
+/** moveit_msgs/AllowedCollisionEntry */
+export type AllowedCollisionEntry = {
+  readonly enabled: readonly boolean[];
+};
+
+/** moveit_msgs/AllowedCollisionMatrix */
+export type AllowedCollisionMatrix = {
+  readonly entry_names: readonly string[];
+  readonly entry_values: readonly AllowedCollisionEntry[];
+  readonly default_entry_names: readonly string[];
+  readonly default_entry_values: readonly boolean[];
+};
+
+/** moveit_msgs/AttachedCollisionObject */
+export type AttachedCollisionObject = {
+  readonly link_name: string;
+  readonly object: CollisionObject;
+  readonly touch_links: readonly string[];
+  readonly detach_posture: JointTrajectory;
+  readonly weight: number;
+};
+
 /** sensor_msgs/CameraInfo */
 export type CameraInfo = {
   readonly header: Header;
@@ -35,6 +57,23 @@ export type ChannelFloat32 = {
   readonly values: Float32Array;
 };
 
+/** moveit_msgs/CollisionObject: ADD 0, REMOVE 1, APPEND 2, MOVE 3 */
+export type CollisionObject = {
+  readonly header: Header;
+  readonly pose: Pose;
+  readonly id: string;
+  readonly type: ObjectType;
+  readonly primitives: readonly SolidPrimitive[];
+  readonly primitive_poses: readonly Pose[];
+  readonly meshes: readonly Mesh[];
+  readonly mesh_poses: readonly Pose[];
+  readonly planes: readonly Plane[];
+  readonly plane_poses: readonly Pose[];
+  readonly subframe_names: readonly string[];
+  readonly subframe_poses: readonly Pose[];
+  readonly operation: number;
+};
+
 /** std_msgs/ColorRGBA */
 export type ColorRGBA = {
   readonly r: number;
@@ -48,6 +87,44 @@ export type CompressedImage = {
   readonly header: Header;
   readonly format: string;
   readonly data: Uint8Array;
+};
+
+/** moveit_msgs/ContactInformation: ROBOT_LINK 0, WORLD_OBJECT 1, ROBOT_ATTACHED 2 */
+export type ContactInformation = {
+  readonly header: Header;
+  readonly position: Point;
+  readonly normal: Vector3;
+  readonly depth: number;
+  readonly contact_body_1: string;
+  readonly body_type_1: number;
+  readonly contact_body_2: string;
+  readonly body_type_2: number;
+};
+
+/** moveit_msgs/DisplayRobotState */
+export type DisplayRobotState = {
+  readonly state: RobotState;
+  readonly highlight_links: readonly ObjectColor[];
+  readonly hide: boolean;
+};
+
+/** moveit_msgs/DisplayTrajectory */
+export type DisplayTrajectory = {
+  readonly model_id: string;
+  readonly trajectory: readonly RobotTrajectory[];
+  readonly trajectory_start: RobotState;
+};
+
+/** moveit_msgs/ExecuteTrajectoryActionResult */
+export type ExecuteTrajectoryActionResult = {
+  readonly header: Header;
+  readonly status: GoalStatus;
+  readonly result: ExecuteTrajectoryResult;
+};
+
+/** moveit_msgs/ExecuteTrajectoryResult */
+export type ExecuteTrajectoryResult = {
+  readonly error_code: MoveItErrorCodes;
 };
 
 /** sensor_msgs/FluidPressure */
@@ -198,6 +275,22 @@ export type JointState = {
   readonly effort: Float64Array;
 };
 
+/** trajectory_msgs/JointTrajectory */
+export type JointTrajectory = {
+  readonly header: Header;
+  readonly joint_names: readonly string[];
+  readonly points: readonly JointTrajectoryPoint[];
+};
+
+/** trajectory_msgs/JointTrajectoryPoint */
+export type JointTrajectoryPoint = {
+  readonly positions: Float64Array;
+  readonly velocities: Float64Array;
+  readonly accelerations: Float64Array;
+  readonly effort: Float64Array;
+  readonly time_from_start: RosTime;
+};
+
 /** sensor_msgs/LaserScan */
 export type LaserScan = {
   readonly header: Header;
@@ -210,6 +303,18 @@ export type LaserScan = {
   readonly range_max: number;
   readonly ranges: Float32Array;
   readonly intensities: Float32Array;
+};
+
+/** moveit_msgs/LinkPadding */
+export type LinkPadding = {
+  readonly link_name: string;
+  readonly padding: number;
+};
+
+/** moveit_msgs/LinkScale */
+export type LinkScale = {
+  readonly link_name: string;
+  readonly scale: number;
 };
 
 /** nav_msgs/MapMetaData */
@@ -258,6 +363,17 @@ export type MenuEntry = {
   readonly command_type: number;
 };
 
+/** shape_msgs/Mesh */
+export type Mesh = {
+  readonly triangles: readonly MeshTriangle[];
+  readonly vertices: readonly Point[];
+};
+
+/** shape_msgs/MeshTriangle */
+export type MeshTriangle = {
+  readonly vertex_indices: Uint32Array;
+};
+
 /** move_base_msgs/MoveBaseActionFeedback */
 export type MoveBaseActionFeedback = {
   readonly header: Header;
@@ -268,6 +384,84 @@ export type MoveBaseActionFeedback = {
 /** move_base_msgs/MoveBaseFeedback */
 export type MoveBaseFeedback = {
   readonly base_position: PoseStamped;
+};
+
+/** moveit_msgs/MoveGroupActionFeedback */
+export type MoveGroupActionFeedback = {
+  readonly header: Header;
+  readonly status: GoalStatus;
+  readonly feedback: MoveGroupFeedback;
+};
+
+/** moveit_msgs/MoveGroupActionResult */
+export type MoveGroupActionResult = {
+  readonly header: Header;
+  readonly status: GoalStatus;
+  readonly result: MoveGroupResult;
+};
+
+/** moveit_msgs/MoveGroupFeedback */
+export type MoveGroupFeedback = {
+  readonly state: string;
+};
+
+/** moveit_msgs/MoveGroupResult */
+export type MoveGroupResult = {
+  readonly error_code: MoveItErrorCodes;
+  readonly trajectory_start: RobotState;
+  readonly planned_trajectory: RobotTrajectory;
+  readonly executed_trajectory: RobotTrajectory;
+  readonly planning_time: number;
+};
+
+/**
+ * moveit_msgs/MoveItErrorCodes: SUCCESS 1, FAILURE 99999, PLANNING_FAILED -1, INVALID_MOTION_PLAN -2,
+ * MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE -3, CONTROL_FAILED -4, UNABLE_TO_AQUIRE_SENSOR_DATA -5,
+ * TIMED_OUT -6, PREEMPTED -7, START_STATE_IN_COLLISION -10, START_STATE_VIOLATES_PATH_CONSTRAINTS -11,
+ * START_STATE_INVALID -26, GOAL_IN_COLLISION -12, GOAL_VIOLATES_PATH_CONSTRAINTS -13, GOAL_CONSTRAINTS_VIOLATED
+ * -14, GOAL_STATE_INVALID -27, UNRECOGNIZED_GOAL_TYPE -28, INVALID_GROUP_NAME -15, INVALID_GOAL_CONSTRAINTS -16,
+ * INVALID_ROBOT_STATE -17, INVALID_LINK_NAME -18, INVALID_OBJECT_NAME -19, FRAME_TRANSFORM_FAILURE -21,
+ * COLLISION_CHECKING_UNAVAILABLE -22, ROBOT_STATE_STALE -23, SENSOR_INFO_STALE -24, COMMUNICATION_FAILURE -25,
+ * CRASH -29, ABORT -30, NO_IK_SOLUTION -31
+ */
+export type MoveItErrorCodes = {
+  readonly val: number;
+};
+
+/** sensor_msgs/MultiDOFJointState */
+export type MultiDOFJointState = {
+  readonly header: Header;
+  readonly joint_names: readonly string[];
+  readonly transforms: readonly Transform[];
+  readonly twist: readonly Twist[];
+  readonly wrench: readonly Wrench[];
+};
+
+/** trajectory_msgs/MultiDOFJointTrajectory */
+export type MultiDOFJointTrajectory = {
+  readonly header: Header;
+  readonly joint_names: readonly string[];
+  readonly points: readonly MultiDOFJointTrajectoryPoint[];
+};
+
+/** trajectory_msgs/MultiDOFJointTrajectoryPoint */
+export type MultiDOFJointTrajectoryPoint = {
+  readonly transforms: readonly Transform[];
+  readonly velocities: readonly Twist[];
+  readonly accelerations: readonly Twist[];
+  readonly time_from_start: RosTime;
+};
+
+/** moveit_msgs/ObjectColor */
+export type ObjectColor = {
+  readonly id: string;
+  readonly color: ColorRGBA;
+};
+
+/** object_recognition_msgs/ObjectType */
+export type ObjectType = {
+  readonly key: string;
+  readonly db: string;
 };
 
 /** nav_msgs/OccupancyGrid */
@@ -287,6 +481,22 @@ export type OccupancyGridUpdate = {
   readonly data: Int8Array;
 };
 
+/** octomap_msgs/Octomap */
+export type Octomap = {
+  readonly header: Header;
+  readonly binary: boolean;
+  readonly id: string;
+  readonly resolution: number;
+  readonly data: Int8Array;
+};
+
+/** octomap_msgs/OctomapWithPose */
+export type OctomapWithPose = {
+  readonly header: Header;
+  readonly origin: Pose;
+  readonly octomap: Octomap;
+};
+
 /** nav_msgs/Odometry */
 export type Odometry = {
   readonly header: Header;
@@ -299,6 +509,38 @@ export type Odometry = {
 export type Path = {
   readonly header: Header;
   readonly poses: readonly PoseStamped[];
+};
+
+/** shape_msgs/Plane */
+export type Plane = {
+  readonly coef: Float64Array;
+};
+
+/** moveit_msgs/PlannerInterfaceDescription */
+export type PlannerInterfaceDescription = {
+  readonly name: string;
+  readonly pipeline_id: string;
+  readonly planner_ids: readonly string[];
+};
+
+/** moveit_msgs/PlanningScene */
+export type PlanningScene = {
+  readonly name: string;
+  readonly robot_state: RobotState;
+  readonly robot_model_name: string;
+  readonly fixed_frame_transforms: readonly TransformStamped[];
+  readonly allowed_collision_matrix: AllowedCollisionMatrix;
+  readonly link_padding: readonly LinkPadding[];
+  readonly link_scale: readonly LinkScale[];
+  readonly object_colors: readonly ObjectColor[];
+  readonly world: PlanningSceneWorld;
+  readonly is_diff: boolean;
+};
+
+/** moveit_msgs/PlanningSceneWorld */
+export type PlanningSceneWorld = {
+  readonly collision_objects: readonly CollisionObject[];
+  readonly octomap: OctomapWithPose;
 };
 
 /** geometry_msgs/Point */
@@ -430,6 +672,29 @@ export type RelativeHumidity = {
   readonly header: Header;
   readonly relative_humidity: number;
   readonly variance: number;
+};
+
+/** moveit_msgs/RobotState */
+export type RobotState = {
+  readonly joint_state: JointState;
+  readonly multi_dof_joint_state: MultiDOFJointState;
+  readonly attached_collision_objects: readonly AttachedCollisionObject[];
+  readonly is_diff: boolean;
+};
+
+/** moveit_msgs/RobotTrajectory */
+export type RobotTrajectory = {
+  readonly joint_trajectory: JointTrajectory;
+  readonly multi_dof_joint_trajectory: MultiDOFJointTrajectory;
+};
+
+/**
+ * shape_msgs/SolidPrimitive: BOX 1, SPHERE 2, CYLINDER 3, CONE 4, BOX_X 0, BOX_Y 1, BOX_Z 2, SPHERE_RADIUS 0,
+ * CYLINDER_HEIGHT 0, CYLINDER_RADIUS 1, CONE_HEIGHT 0, CONE_RADIUS 1
+ */
+export type SolidPrimitive = {
+  readonly type: number;
+  readonly dimensions: Float64Array;
 };
 
 /** tf2_msgs/TFMessage */

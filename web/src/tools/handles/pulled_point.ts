@@ -7,7 +7,7 @@ import type { SceneView } from "../../scene/scene_view";
 import { selectionOf } from "../picked";
 import type { PointerInput } from "../../scene/pointer_input";
 import type { WorldEditor } from "../../page/world_editor";
-import { LatestRequest } from "./latest_request";
+import { LatestRequest } from "../../protocol/latest_request";
 import { findModel } from "../../page/selection_lookup";
 
 /** Period at which a pull is sent again, even if the pointer rests [ms]; after a second without it the server lets go. */
