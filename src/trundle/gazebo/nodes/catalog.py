@@ -115,6 +115,10 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("rqt_service_caller", "rqt_service_caller"): "trundle.gazebo.nodes.rqt_windows:RqtServiceCaller",
     ("rqt_tf_tree", "rqt_tf_tree"): "trundle.gazebo.nodes.rqt_windows:RqtTfTree",
     ("rqt_topic", "rqt_topic"): "trundle.gazebo.nodes.rqt_windows:RqtTopic",
+    ("rrt_exploration", "assigner.py"): "trundle.navigation.exploration:RrtAssigner",
+    ("rrt_exploration", "filter.py"): "trundle.navigation.exploration:RrtFilter",
+    ("rrt_exploration", "global_rrt_detector"): "trundle.navigation.exploration:GlobalRrtDetector",
+    ("rrt_exploration", "local_rrt_detector"): "trundle.navigation.exploration:LocalRrtDetector",
     ("rviz", "rviz"): "trundle.gazebo.nodes.rviz:Rviz",
     ("slam_karto", "slam_karto"): "trundle.navigation.mapping:SlamKarto",
     ("slam_toolbox", "async_slam_toolbox_node"): "trundle.navigation.mapping:AsyncSlamToolbox",
@@ -226,6 +230,10 @@ _IN_PYTHON = (
     "turtlebot",
 )
 ROSCPP = frozenset(
-    key for key in BUILTIN_NODES if not key[0].startswith(_IN_PYTHON) and key[1] not in ("spawn_model", "urdf_spawner")
+    key
+    for key in BUILTIN_NODES
+    if not key[0].startswith(_IN_PYTHON)
+    and not key[1].endswith(".py")
+    and key[1] not in ("spawn_model", "urdf_spawner")
 )
 """Nodes whose originals use roscpp, which names loggers differently."""

@@ -1,4 +1,4 @@
-"""Exploration of unknown space: explore_lite, frontier_exploration."""
+"""Exploration of unknown space: explore_lite, frontier_exploration, rrt_exploration."""
 
 import lazy_loader
 

@@ -179,7 +179,7 @@ class Explore:
             color = _RED if self._is_refused(frontier.centroid, resolution_m) else _BLUE
             place = {"position": dict(zip("xy", frontier.initial, strict=True)), "orientation": {"w": 1.0}}
             level = {"orientation": {"w": 1.0}}
-            dots = {"type": _POINTS, "scale": {"x": 0.1, "y": 0.1, "z": 0.1}, "color": color, "points": points}
+            dots = {"type": _POINTS, "scale": {"x": 0.1, "y": 0.1}, "color": color, "points": points}
             ball = {"type": _SPHERE, "scale": {"x": size, "y": size, "z": size}, "color": _GREEN, "pose": place}
             markers += [
                 {**common, **dots, "pose": level, "id": len(markers)},
