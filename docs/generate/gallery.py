@@ -38,8 +38,8 @@ GALLERY: dict[str, Entry] = {
     "living_room": Entry("trundle run rp2w_at_home.world", "rp2w_at_home.world", (2.6, -1.2, 1.9), (-0.2, 0.9, 0.7)),
     "quadruped": Entry("trundle run quadruped.world", "quadruped.world", (1.6, -1.0, 0.7), (0.45, 0.0, 0.2), 1.6),
     "house": Entry(
-        "trundle launch house_navigation house.launch", "house.world", (-5.6, -6.6, 7.2), (-0.2, -0.3, 0.0),
-        robot="package://house_navigation/urdf/scout.urdf", pose=(-3.0, -1.5, 0.0),
+        "trundle launch house_navigation house.launch", "house.world", (-2.6, -5.1, 7.2), (2.8, 1.2, 0.0),
+        robot="package://house_navigation/urdf/scout.urdf",
     ),
     "arm": Entry(
         "trundle launch arm_control arm.launch", "table.world", (1.8, -1.5, 1.1), (0.3, 0.0, 0.35),

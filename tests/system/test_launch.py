@@ -155,7 +155,7 @@ def test_a_launch_with_its_own_master_writes_logs(
     assert "Node Startup" in (logs / "rosout.log").read_text()
 
 
-def test_the_end_of_a_required_node_ends_the_launch_with_1(launch: Launch, package: Path) -> None:
+def test_the_end_of_a_required_node_ends_the_launch(launch: Launch, package: Path) -> None:
     (package / "main.launch").write_text(
         '<launch><node pkg="p" type="talk" name="stays"/>'
         '<node pkg="p" type="talk" name="ends" args="0 3" required="true"/></launch>'
@@ -166,6 +166,16 @@ def test_the_end_of_a_required_node_ends_the_launch_with_1(launch: Launch, packa
     assert "[ends-2] process has died [exit code 3]" in done.stdout
     assert "REQUIRED process [ends-2] has died!" in done.stdout
     assert "[stays-1] killing on exit" in done.stdout
+
+
+def test_a_launch_succeeds_if_its_required_node_does(launch: Launch, package: Path) -> None:
+    (package / "main.launch").write_text(
+        '<launch><node pkg="p" type="talk" name="ends" args="0 0" required="true"/></launch>'
+    )
+    done = launch("p", "main.launch", "--headless")
+
+    assert done.returncode == 0
+    assert "REQUIRED process [ends-1] has died!" in done.stdout
 
 
 @pytest.mark.real_ros

@@ -30,7 +30,7 @@ _CLOCK_TIMEOUT_S = 5.0
 
 
 def launch(words: Sequence[str], options: LaunchOptions, environment: Mapping[str, str] | None = None) -> int:
-    """Launch; return the exit code: 0 at the end of --duration, 1 if a required node died or recording failed.
+    """Launch; return the exit code: 0 at the end of --duration, 1 if a required node or recording failed.
 
     Like roslaunch, it ends with its last node only if it joined a running master.
 
@@ -167,12 +167,12 @@ def _run(loaded: LoadedLaunch, options: LaunchOptions, stop: StopFlag, read_agai
                 session.show.line("the launch is loaded again")
             is_over = session.is_over or running.required_died or (running.is_over and not session.has_master)
             is_over = is_over or session.recording_failed
-        required_died = running.required_died
+        required_failed = running.required_failed
     if session.recording_failed:  # recording failed, or closing the bag did
         return 1
     if stop.is_set():
         return 130
-    return 1 if required_died else 0
+    return 1 if required_failed else 0
 
 
 def _printed(options: LaunchOptions, plan: LaunchPlan, packages: Packages, env: Mapping[str, str]) -> str:

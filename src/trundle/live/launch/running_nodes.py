@@ -83,6 +83,12 @@ class RunningNodes:
         """True if the end of a required node ended the launch."""
         return self.is_over and self._waiting is not None and self._waiting.result() is not None
 
+    @property
+    def required_failed(self) -> bool:
+        """True if a required node ended the launch with another exit code than 0."""
+        name = self._waiting.result() if self.is_over and self._waiting is not None else None
+        return name is not None and self._supervisor is not None and self._supervisor.exit_codes()[name] != 0
+
     def has_world_ended(self) -> bool:
         """True if worlds were started and all have ended."""
         return bool(self._worlds) and self._worlds <= self._ended
