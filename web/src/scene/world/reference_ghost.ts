@@ -58,7 +58,7 @@ export class ReferenceGhost {
     // behind the world's own surfaces at the same place
     polygonOffset: true,
     polygonOffsetFactor: 2,
-    polygonOffsetUnits: 2,
+    polygonOffsetUnits: 33,
   });
   private readonly style: CSSStyleDeclaration;
   /** Copies by the recording's index of their link. */

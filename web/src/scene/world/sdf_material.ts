@@ -61,7 +61,7 @@ export function sdfMaterial(
     // behind displays' objects at the same place, such as the RobotModel of a simulated robot
     polygonOffset: true,
     polygonOffsetFactor: 1,
-    polygonOffsetUnits: 1,
+    polygonOffsetUnits: 32, // maps in the plane of the ground are drawn over it
     vertexShader: VERTEX_SHADER,
     fragmentShader: "",
     uniforms,
