@@ -5,6 +5,8 @@ import type { JSX } from "preact";
 /** Number of characters kept at the end, and the length up to which a name is cut at its end instead. */
 const TAIL = 8;
 const SHORT = 14;
+/** Values of a joint, before which names of joints differ. */
+const QUANTITY = /\.(position|velocity|effort)$/;
 /** Scripts whose letters join, so that a word must not be cut. */
 const JOINED = /[\p{Script=Arabic}\p{Script=Syriac}\p{Script=Mongolian}\p{Script=Devanagari}\p{Script=Bengali}]/u;
 
@@ -29,5 +31,6 @@ export function cutAt(text: string): number {
   if (text.length <= SHORT) return text.length;
   if (JOINED.test(text)) return /[\s_./:-][\p{N}\p{P}]*$/u.exec(text)?.index ?? text.length;
   const starts = [...new Intl.Segmenter().segment(text)].map(({ index }) => index);
-  return starts.length <= SHORT ? text.length : (starts.at(-TAIL) ?? text.length);
+  const kept = TAIL + (QUANTITY.exec(text)?.[0].length ?? 0);
+  return starts.length <= Math.max(SHORT, kept + 1) ? text.length : (starts.at(-kept) ?? text.length);
 }

@@ -9,6 +9,11 @@ test("the end of a long name stays, with what tells it from others", () => {
   expect(tail("倉庫の北側にある自律移動ロボットの車輪17号機")).toBe("トの車輪17号機");
 });
 
+test("values of two joints differ before their quantity, which stays, too", () => {
+  expect(tail("chassis_left_wheel.velocity")).toBe("ft_wheel.velocity");
+  expect(tail("chassis_right_wheel.velocity")).toBe("ht_wheel.velocity");
+});
+
 test("a short name has no end that stays", () => {
   expect(tail("netbook_webcam")).toBe("");
 });
