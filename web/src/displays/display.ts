@@ -188,9 +188,9 @@ export abstract class Display {
     return faults;
   }
 
-  /** ROS 2's files have every display's topic as a mapping under `Topic`, whatever rviz calls it. */
+  /** ROS 2's files have every display's topic, a name or a mapping, under `Topic`, whatever rviz calls it. */
   private topicOfRos2(key: string, value: Yaml): Property<unknown> | undefined {
-    if (key !== "Topic" || !isMapping(value)) return undefined;
+    if (key !== "Topic" || !(isMapping(value) || typeof value === "string")) return undefined;
     return this.properties.find((property) => property instanceof TopicProperty);
   }
 }

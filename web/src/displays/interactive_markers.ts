@@ -9,7 +9,7 @@ import { withHandles } from "./interactive/default_handles";
 import { withLocalShapes } from "./interactive/local_shapes";
 import { MarkerClient } from "./interactive/marker_client";
 import { InteractiveMarkerView } from "./interactive/marker_view";
-import { BoolProperty, TopicProperty } from "../rviz/properties";
+import { BoolProperty, TopicProperty, type YamlMapping } from "../rviz/properties";
 import { register } from "./registry";
 import { watch } from "./watch";
 
@@ -31,6 +31,13 @@ export class InteractiveMarkers extends Display {
   private readonly waiting = new Map<string, () => void>();
   private client: MarkerClient | null = null;
   private stops: (() => void)[] = [];
+
+  /** ROS 2's files name the markers' namespace; the topic is below it. */
+  override load(yaml: YamlMapping): string[] {
+    const space = yaml["Interactive Markers Namespace"];
+    const isRos2 = yaml["Update Topic"] === undefined && typeof space === "string" && space !== "";
+    return super.load(isRos2 ? { ...yaml, "Update Topic": `${space}/update` } : yaml);
+  }
 
   override get topic(): string {
     return this.context.names.resolve(this.topicProperty.value.value);

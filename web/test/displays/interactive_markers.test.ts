@@ -137,6 +137,13 @@ describe("the servers' protocol", () => {
     expect(display.statuses.value.get("server")?.text).toBe("OK");
   });
 
+  it("finds its topic below the namespace in a file of ROS 2", () => {
+    const display = new InteractiveMarkers(setup().context);
+    display.load({ Class: "rviz_default_plugins/InteractiveMarkers", "Interactive Markers Namespace": "/menu" });
+    expect(display.topic).toBe("/menu/update");
+    expect(display.save()).toMatchObject({ "Interactive Markers Namespace": "/menu" });
+  });
+
   it("refuses a topic whose name does not end with /update", () => {
     const display = new InteractiveMarkers(setup().context);
     display.load({ "Update Topic": "/menu" });
