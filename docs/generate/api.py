@@ -101,22 +101,22 @@ PUBLIC: dict[str, dict[str, str]] = {
         "WorldPlugin": "load",
         "VisualPlugin": "load",
         "PluginTag": "name filename node",
-        "TagParameters": "number text flag vector",
+        "TagParameters": "number integer numbers vector flag text texts attribute section sections",
     },
     "Sweeps and data sets": {
         "SweepResult": "folder counts total rate interrupted table done summary",
         "DatasetResult": "folder done total rate failed interrupted summary",
     },
     "Errors and warnings": {
-        "TrundleError": "",
+        "TrundleError": "id missing_packages",
         "UsageError": "",
         "DescriptionError": "",
         "MeshError": "",
         "SimulationUnstableError": "",
         "TrundleWarning": "",
         "Diagnostics": "findings warnings errors",
-        "Diagnostic": "",
-        "Source": "",
+        "Diagnostic": "severity at what id sentence",
+        "Source": "file line",
     },
 }
 """Section → name in `trundle` → its public members; `*` for all fields."""

@@ -55,7 +55,9 @@ class Source(NamedTuple):
     __module__ = "trundle"
 
     file: str
+    """Name of the file as the user gave it."""
     line: int | None = None
+    """Line, counted from 1; None: the whole file."""
 
     def __str__(self) -> str:
         file = printable(self.file)
@@ -167,8 +169,11 @@ class Diagnostic(NamedTuple):
     __module__ = "trundle"
 
     severity: Severity
+    """error, warning or info."""
     at: Source
+    """Position in the file."""
     what: str
+    """Sentence that says what is wrong, and what is used instead."""
     id: str = ""
     """ID that `trundle explain` explains; empty: it has none."""
 
