@@ -8,4 +8,5 @@ NB_MODULE(_planning, module) {
   trundle::planning::bind_kinematics(module);
   trundle::planning::bind_scene(module);
   trundle::planning::bind_planners(module);
+  trundle::planning::bind_trajectories(module);
 }

@@ -22,5 +22,6 @@ struct SharedWorld {
 
 void bind_scene(nanobind::module_& module);
 void bind_planners(nanobind::module_& module);
+void bind_trajectories(nanobind::module_& module);
 
 }  // namespace trundle::planning

@@ -364,3 +364,25 @@ def follow_poses(
     Return the states (M, n), and why it ends: 0 all are reached, 1 a pose is out of reach, 2 a state or the motion to
     it is not valid, 3 a variable jumps by more than its bound (0: any).
     """
+
+_Timed = tuple[NDArray[float64], NDArray[float64], NDArray[float64], NDArray[float64]]
+
+def time_optimal(
+    waypoints: NDArray[float64],
+    velocity: NDArray[float64],
+    acceleration: NDArray[float64],
+    tolerance: float,
+    step_s: float,
+) -> _Timed:
+    """Return the fastest times (M,), positions, velocities and accelerations (M, n) along waypoints (N, n).
+
+    Args:
+        waypoints: their corners become arcs that leave them by at most the tolerance.
+        velocity: (n,) limits, above zero.
+        acceleration: (n,) limits, above zero.
+        tolerance: [rad, m]
+        step_s: time between states [s].
+    """
+
+def time_parabolic(waypoints: NDArray[float64], velocity: NDArray[float64], acceleration: NDArray[float64]) -> _Timed:
+    """Return times (N,), positions, velocities and accelerations (N, n) of waypoints (N, n)."""
