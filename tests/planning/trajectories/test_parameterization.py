@@ -1,5 +1,7 @@
 """Times along paths keep every limit, and are as short as they may be."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
@@ -111,7 +113,7 @@ def test_a_path_that_goes_nowhere_takes_no_time(waypoints: NDArray[np.float64]) 
     ],
 )
 def test_what_has_no_times_is_refused(
-    waypoints: list[list[float]], velocity: float, options: dict[str, float], message: str
+    waypoints: list[list[float]], velocity: float, options: dict[str, Any], message: str
 ) -> None:
     with pytest.raises(UsageError, match=message):
         parameterize(np.array(waypoints), _limits(velocity, 1.0, 1), **options)

@@ -1,3 +1,9 @@
+from .cartesian_lines import (
+    CartesianPath as CartesianPath,
+    JumpBounds as JumpBounds,
+    PathEnd as PathEnd,
+    cartesian_path as cartesian_path,
+)
 from .constraints import (
     Constraints as Constraints,
     JointConstraint as JointConstraint,
@@ -9,9 +15,10 @@ from .constraints import (
     joint_goal as joint_goal,
     pose_goal as pose_goal,
 )
-from .error_codes import ErrorCode as ErrorCode, PlanningFailure as PlanningFailure
+from .error_codes import ErrorCode as ErrorCode, PlanningFailure as PlanningFailure, RequestError as RequestError
 from .motion_plan import plan as plan
 from .requests import (
+    CartesianLimits as CartesianLimits,
     MotionPlan as MotionPlan,
     MotionPlanRequest as MotionPlanRequest,
     PlannerSettings as PlannerSettings,

@@ -186,7 +186,12 @@ class GroupProblem:
             raise RequestError(ErrorCode.INVALID_GOAL_CONSTRAINTS, str(error)) from None
         return poses, visibilities
 
-    def _link(self, link: str) -> int:
+    def link_number(self, link: str) -> int:
+        """Return the number of a link.
+
+        Raises:
+            RequestError: no such link.
+        """
         if link not in self.model.links:
             raise RequestError(ErrorCode.INVALID_LINK_NAME, no_such("no link", link, self.model.links))
         return self.model.links.index(link)
@@ -201,7 +206,7 @@ class GroupProblem:
             raise RequestError(ErrorCode.FRAME_TRANSFORM_FAILURE, str(error)) from None
 
     def _position(self, constraint: PositionConstraint) -> _planning.PoseConstraint:
-        link = self._link(constraint.link)
+        link = self.link_number(constraint.link)
         frame, pose = self._frame(constraint.frame)
         placed = [type(shape)(shape.geometry, pose @ shape.pose) for shape in constraint.region]
         region = pieces_of(placed, f"position constraint of {constraint.link!r}", moves=False)
@@ -212,7 +217,7 @@ class GroupProblem:
         )
 
     def _orientation(self, constraint: OrientationConstraint) -> _planning.PoseConstraint:
-        link = self._link(constraint.link)
+        link = self.link_number(constraint.link)
         frame, pose = self._frame(constraint.frame)
         row = np.array(pose_row(Pose(quaternion=constraint.orientation)))
         w, x, y, z = quaternion_product(pose.quaternion, (row[6], row[3], row[4], row[5]))

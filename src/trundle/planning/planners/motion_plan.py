@@ -8,7 +8,7 @@ from .. import _planning
 from ..planning_scene import PlanningScene
 from .error_codes import ErrorCode, PlanningFailure, RequestError
 from .group_problem import GroupProblem
-from .planner_names import ALGORITHMS, find_algorithm
+from .planner_names import ALGORITHMS, SEQUENTIAL, find_algorithm
 from .requests import MotionPlan, MotionPlanRequest, PlanStatistics, Positions
 from .start_state import fixed_bounds, valid_start
 
@@ -24,6 +24,10 @@ def plan(scene: PlanningScene, request: MotionPlanRequest) -> MotionPlan | Plann
     same answer, unless the time was too short.
     """
     try:
+        if request.planner.upper() in SEQUENTIAL:
+            from .pilz.sequential import plan_sequential
+
+            return plan_sequential(scene.copy(), request)
         return _plan(scene.copy(), request)
     except RequestError as error:
         return error.failure

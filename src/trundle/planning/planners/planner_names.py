@@ -31,6 +31,8 @@ _NEAREST: dict[str, Algorithm] = {
     "CHOMP": "RRTConnect",
     "STOMP": "RRTConnect",
 }
+SEQUENTIAL = ("PTP", "LIN", "CIRC")
+"""Planners of pilz_industrial_motion_planner."""
 
 
 def find_algorithm(planner: str) -> tuple[Algorithm, str]:
@@ -44,5 +46,5 @@ def find_algorithm(planner: str) -> tuple[Algorithm, str]:
     for known, algorithm in _NEAREST.items():
         if name.lower() == known.lower():
             return algorithm, f"there is no {known}; {algorithm} planned, which answers the same requests"
-    known_names = ", ".join(ALGORITHMS)
+    known_names = ", ".join([*ALGORITHMS, *SEQUENTIAL])
     return "RRTConnect", f"no planner {planner!r}; RRTConnect planned; there are: {known_names}"

@@ -46,6 +46,19 @@ class StartStateFixes(Struct, frozen=True, kw_only=True):
     max_sampling_attempts: int = 100
 
 
+class CartesianLimits(Struct, frozen=True, kw_only=True):
+    """Limits of a link on lines and arcs: pilz_cartesian_limits.yaml."""
+
+    max_trans_vel: float = 1.0
+    """[m/s]"""
+    max_trans_acc: float = 2.25
+    """[m/s²]"""
+    max_trans_dec: float = -5.0
+    """[m/s²]"""
+    max_rot_vel: float = 1.57
+    """[rad/s]"""
+
+
 class MotionPlanRequest(Struct, frozen=True, kw_only=True, eq=False):
     """moveit_msgs/MotionPlanRequest."""
 
@@ -67,6 +80,8 @@ class MotionPlanRequest(Struct, frozen=True, kw_only=True, eq=False):
     velocity_scaling: float = 1.0
     """In (0, 1], of the planners that make trajectories."""
     acceleration_scaling: float = 1.0
+    cartesian_limits: CartesianLimits = CartesianLimits()
+    """Limits of LIN and CIRC."""
     seed: int = 0
     """Same seed, same path."""
     cancel: CancelFlag = field(default_factory=CancelFlag)
