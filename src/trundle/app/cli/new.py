@@ -1,4 +1,4 @@
-"""Write a package, robot, world, plugin, node, launch file or message that runs at once, with a test."""
+"""Write a package, robot, world, plugin, node, launch file or message that runs at once; or a package for MoveIt."""
 
 import argparse
 import os
@@ -14,17 +14,19 @@ EXAMPLES = """
   trundle new node patrol                             in a package, as the next two
   trundle new launch bringup
   trundle new message WheelSpeed
+  trundle new moveit_config arm_moveit_config --urdf arm.urdf.xacro
 """
 _ROBOTS = ("differential", "car", "arm", "quadruped")
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    kinds = ("package", "robot", "world", "plugin", "node", "launch", "message")
+    kinds = ("package", "robot", "world", "plugin", "node", "launch", "message", "moveit_config")
     parser.add_argument("what", choices=kinds, metavar="KIND", help=" | ".join(kinds))
     parser.add_argument("name", help="letters, digits and _; for a message in camel case, such as WheelSpeed")
     parser.add_argument("--kind", choices=_ROBOTS, help="kind of robot (differential)")
     parser.add_argument("--cpp", action="store_true", help="plugin in C++, as for Gazebo")
+    parser.add_argument("--urdf", metavar="FILE", help="URDF or xacro of a moveit_config, or package://NAME/FILE")
     directory = "folder to write to (this one, which is a package for a node or message)"
     parser.add_argument("-C", "--directory", type=Path, default=Path(), metavar="DIR", help=directory)
 
@@ -37,6 +39,10 @@ def main(args: argparse.Namespace) -> int:
         raise UsageError(f"--kind is only for robots, not for a {args.what}")
     if args.cpp and args.what != "plugin":
         raise UsageError(f"--cpp is only for plugins, not for a {args.what}")
+    if (args.urdf is not None) != (args.what == "moveit_config"):
+        raise UsageError("a moveit_config needs --urdf FILE; nothing else takes it")
+    if args.what == "moveit_config":
+        return _write_moveit_config(args.urdf, args.name, args.directory)
     scaffold = scaffolds(args.kind or _ROBOTS[0], is_cpp=args.cpp)[args.what]
     folder = args.directory
     if args.what == "package":
@@ -55,6 +61,24 @@ def main(args: argparse.Namespace) -> int:
     for path in paths:
         print(f"Created file {path}")
     print("\n".join(f"  {step}" for step in next_steps(scaffold, args.name, package or "")))
+    return 0
+
+
+def _write_moveit_config(urdf: str, name: str, parent: Path) -> int:
+    import sys
+
+    from trundle.app.scaffold.moveit_package import write_moveit_package
+    from trundle.base.diagnostics import Diagnostics
+
+    report = Diagnostics()
+    try:
+        paths = write_moveit_package(urdf, name, parent, dict(os.environ), report)
+    finally:
+        for warning in report.printed_warnings():
+            print(warning, file=sys.stderr)
+    for path in paths:
+        print(f"Created file {path}")
+    print(f"  trundle launch {parent / name / 'launch' / 'demo.launch'}")
     return 0
 
 

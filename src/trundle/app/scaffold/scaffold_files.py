@@ -122,7 +122,7 @@ def write_scaffold(scaffold: Scaffold, name: str, folder: Path, *, package: str)
     Raises:
         UsageError: an invalid name, or a file that exists or cannot be written; then nothing is written.
     """
-    _check_name(name, is_camel_case=scaffold.is_camel_case)
+    check_name(name, is_camel_case=scaffold.is_camel_case)
     values = {"@NAME@": name, "@PACKAGE@": package, "@CLASS@": "".join(part.title() for part in name.split("_"))}
     texts = {
         folder / _substitute(path, values): _substitute(
@@ -155,7 +155,12 @@ def _substitute(text: str, values: Mapping[str, str]) -> str:
     return text
 
 
-def _check_name(name: str, *, is_camel_case: bool) -> None:
+def check_name(name: str, *, is_camel_case: bool) -> None:
+    """Refuse what is no name of a package, file or message.
+
+    Raises:
+        UsageError: no name.
+    """
     if is_camel_case and _CAMEL_CASE.fullmatch(name) is None:
         raise UsageError(f"{name!r} is not a message name, such as WheelSpeed")
     if _NAME.fullmatch(name) is None:
