@@ -63,6 +63,7 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("map_server", "map_saver"): "trundle.gazebo.nodes.map_server:MapSaver",
     ("map_server", "map_server"): "trundle.gazebo.nodes.map_server:MapServer",
     ("move_base", "move_base"): "trundle.navigation.move_base:MoveBase",
+    ("moveit_ros_move_group", "move_group"): "trundle.planning.move_group:MoveGroup",
     ("nodelet", "nodelet"): "trundle.gazebo.nodes.nodelet:Nodelet",
     (
         "pointcloud_to_laserscan",

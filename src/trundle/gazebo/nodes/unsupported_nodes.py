@@ -2,6 +2,7 @@
 
 OVER_THE_WIRE = "the real one can run in a container with ROS_MASTER_URI set to this master"
 _NAVIGATION = f"Trundle has no stand-in for it; {OVER_THE_WIRE}"
+_DATABASE = "scenes and constraints are not kept in a database; move_group plans without one, as with db:=false"
 _DRIVER = "a driver of real hardware; the simulator's sensors publish the same topics where the model has them"
 _ROSSERIAL = (
     "it talks to a microcontroller on a serial port; rosserial_python's serial_node.py is Python, and runs here: "
@@ -13,10 +14,13 @@ ALTERNATIVES: dict[str, str] = {
     "costmap_2d": _NAVIGATION,
     "global_planner": _NAVIGATION,
     "karto_slam": _NAVIGATION,
-    "moveit_ros_move_group": _NAVIGATION,
-    "moveit_ros_visualization": _NAVIGATION,
-    "moveit_ros_benchmarks": _NAVIGATION,
-    "moveit_ros_warehouse": _NAVIGATION,
+    "moveit_ros_benchmarks": f"there are no benchmarks of planners; {OVER_THE_WIRE}",
+    "moveit_ros_perception": "move_group reads depth sensors itself, by the parameters ~sensors",
+    "moveit_ros_visualization": "the page has its panel and displays; rviz of a launch file opens it",
+    "moveit_ros_warehouse": _DATABASE,
+    "moveit_servo": _NAVIGATION,
+    "warehouse_ros_mongo": _DATABASE,
+    "warehouse_ros_sqlite": _DATABASE,
     "moveit_setup_assistant": "a tool that writes files; run the real one once, Trundle reads its output",
     "octomap_server": _NAVIGATION,
     "rtabmap_ros": _NAVIGATION,

@@ -30,6 +30,10 @@ class RosParameters(Parameters):
         """Return the names of the parameters directly in the namespace, in order."""
         return list(self._tree)
 
+    def tree(self) -> dict[str, Any]:
+        """Return the parameters as they are."""
+        return dict(self._tree)
+
     def section(self, name: str) -> Self:
         """Return a nested namespace."""
         return type(self)(self._tree.get(name), f"{self.namespace}/{name}", warn=self._warn)

@@ -35,6 +35,8 @@ class ActionClient:
         self._has_status = False
         self._on_done: Callable[[int], object] | None = None
         self._on_feedback: Callable[[Message], object] | None = None
+        self.result: Message | None = None
+        """Result of the goal that ended last, set before `on_done` is called."""
         self._goals = node.advertise(f"{name}/goal", f"{type_name}ActionGoal", queue_size=10)
         self._cancels = node.advertise(f"{name}/cancel", "actionlib_msgs/GoalID", queue_size=10)
         node.subscribe(f"{name}/status", "actionlib_msgs/GoalStatusArray", self._receive_status, queue_size=10)
@@ -86,6 +88,7 @@ class ActionClient:
         if message.status.goal_id.id == self._goal_id and self._on_done is not None:
             on_done = self._on_done
             self._goal_id, self._on_done, self._on_feedback = "", None, None
+            self.result = message.result
             on_done(int(message.status.status))
 
     def _receive_feedback(self, message: Any) -> None:

@@ -1,0 +1,1 @@
+from .catalog import CAPABILITIES as CAPABILITIES, DEFAULTS as DEFAULTS

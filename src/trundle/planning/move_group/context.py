@@ -1,0 +1,67 @@
+"""What move_group's capabilities share."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from msgspec import Struct
+
+from trundle.ros import Node
+
+from .controllers import JointPath, path_message
+from .planning_scene_monitor import PlanningSceneMonitor
+from .robot_description import RobotDescription
+from .scene import SceneContents, is_empty_state, positions_of, state_fields
+
+if TYPE_CHECKING:
+    from trundle.ros import Message, Publisher
+
+    from .pipelines import Pipelines
+    from .trajectory_execution import TrajectoryExecution
+
+
+class Context(Struct, frozen=True, eq=False, kw_only=True):
+    """The node with its parts."""
+
+    node: Node
+    description: RobotDescription
+    monitor: PlanningSceneMonitor
+    pipelines: "Pipelines"
+    execution: "TrajectoryExecution | None"
+    """None: ~allow_trajectory_execution is false."""
+    display: "Publisher"
+    """moveit_msgs/DisplayTrajectory of each plan."""
+
+    async def start_positions(self, state: "Message") -> np.ndarray:
+        """Return the state that a moveit_msgs/RobotState means, over the present one.
+
+        Raises:
+            ValueError: the state is invalid.
+        """
+        monitor = self.monitor
+        if is_empty_state(state) or state.is_diff:
+            await monitor.state.wait_since(self.node.clock.now_ns())
+        return positions_of(monitor.model, state, monitor.positions())
+
+    def show(self, path: JointPath, start: np.ndarray, contents: SceneContents) -> None:
+        """Publish a plan for displays."""
+        if not self.display.has_subscribers:
+            return
+        self.display.publish(
+            {
+                "model_id": self.monitor.model.name,
+                "trajectory": [self.trajectory_fields(path)],
+                "trajectory_start": self.state_fields(start, contents),
+            }
+        )
+
+    def trajectory_fields(self, path: JointPath | None) -> dict[str, Any]:
+        """Return the fields of a moveit_msgs/RobotTrajectory; None: an empty one."""
+        if path is None:
+            return {}
+        return {"joint_trajectory": path_message(path, frame=self.monitor.model.model_frame)}
+
+    def state_fields(self, positions: np.ndarray, contents: SceneContents | None = None) -> dict[str, Any]:
+        """Return the fields of a moveit_msgs/RobotState."""
+        carried = None if contents is None else contents.carried
+        stamp_ns = self.node.clock.now_ns()
+        return state_fields(self.monitor.model, positions, stamp_ns=stamp_ns, carried=carried)

@@ -1,0 +1,5 @@
+"""Picking and placing: reach, approach, close or open the hand, retreat."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

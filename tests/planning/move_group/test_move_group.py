@@ -1,0 +1,130 @@
+"""move_group's actions and services, on a graph with an arm and fake controllers."""
+
+import math
+from typing import Any
+
+import numpy as np
+from tests.planning.arms import arm
+from tests.planning.move_group.arm_graph import ARM, add, box, joint_goal, request, send, start_arm
+
+from trundle.planning.kinematics import Kinematics
+
+_AWAY = {"joint_1": 0.9, "joint_2": 0.3, "joint_3": -0.4, "joint_4": 0.0, "joint_5": 0.5, "joint_6": 0.2}
+_SUCCESS, _NO_IK, _IN_COLLISION, _NO_GROUP, _NO_FRAME = 1, -31, -12, -15, -21
+_PLAN, _MOVE = "moveit_msgs/GetMotionPlan", "moveit_msgs/MoveGroup"
+
+
+def _positions(graph: Any) -> dict[str, float]:
+    states = graph.listen("/joint_states", "sensor_msgs/JointState")
+    graph.until(lambda: len(states) > 1)
+    return dict(zip(states[-1].name, states[-1].position, strict=True))
+
+
+def test_a_motion_to_joint_positions_is_planned_and_executed(graph: Any) -> None:
+    start_arm(graph)
+
+    result = send(graph, "move_group", _MOVE, {"request": request(joint_goal(_AWAY)), "planning_options": {}})
+
+    assert result.result.error_code.val == _SUCCESS
+    assert result.status.text == "Solution was found and executed."
+    trajectory = result.result.planned_trajectory.joint_trajectory
+    assert list(trajectory.joint_names) == ARM
+    np.testing.assert_allclose(trajectory.points[-1].positions, list(_AWAY.values()), atol=2e-3)
+    reached = _positions(graph)
+    np.testing.assert_allclose([reached[name] for name in ARM], list(_AWAY.values()), atol=2e-3)
+
+
+def test_a_plan_keeps_limits_and_is_free_of_the_object_in_its_way(graph: Any) -> None:
+    """The straight way of joint 1 leads through the post; every point of the plan is checked against it."""
+    start_arm(graph)
+    add(graph, box("post", 0.4, 0.0, 0.6, (0.05, 0.05, 1.2)))
+    turned = {**dict.fromkeys(ARM, 0.0), "joint_5": 0.8}
+    start = {"joint_state": {"name": ARM, "position": [-0.9, *list(turned.values())[1:]]}, "is_diff": True}
+    wanted = {**request(joint_goal({**turned, "joint_1": 0.9})), "start_state": start}
+
+    answer = graph.call("/plan_kinematic_path", _PLAN, motion_plan_request=wanted).motion_plan_response
+
+    assert answer.error_code.val == _SUCCESS
+    points = answer.trajectory.joint_trajectory.points
+    validity = "moveit_msgs/GetStateValidity"
+    middle = {"joint_state": {"name": ARM, "position": [0.0, *list(turned.values())[1:]]}, "is_diff": True}
+    blocked = graph.call("/check_state_validity", validity, robot_state=middle, group_name="arm")
+    assert not blocked.valid
+    assert "post" in {blocked.contacts[0].contact_body_1, blocked.contacts[0].contact_body_2}
+    for point in points:
+        state = {"joint_state": {"name": ARM, "position": list(point.positions)}, "is_diff": True}
+        assert graph.call("/check_state_validity", validity, robot_state=state, group_name="arm").valid
+    velocities = np.array([point.velocities for point in points])
+    limits = arm("six_axis").max_velocity[arm("six_axis").indices(ARM)]
+    assert np.all(np.abs(velocities) <= limits * 1.001)
+
+
+def test_requests_that_cannot_be_planned_have_their_codes(graph: Any) -> None:
+    start_arm(graph)
+    add(graph, box("wall", 0.35, 0.35, 0.5, (0.3, 0.3, 1.2)))
+
+    def code(wanted: dict[str, Any]) -> int:
+        answer = graph.call("/plan_kinematic_path", _PLAN, motion_plan_request=wanted)
+        return int(answer.motion_plan_response.error_code.val)
+
+    assert code(request(joint_goal(_AWAY), group="leg")) == _NO_GROUP
+    assert code(request(joint_goal({**_AWAY, "joint_1": math.pi / 4}))) == _IN_COLLISION
+    somewhere = {"header": {"frame_id": "nowhere"}, "link_name": "tool0", "orientation": {"w": 1.0}}
+    assert code(request({"orientation_constraints": [somewhere]})) == _NO_FRAME
+
+
+def test_the_other_way_round_kinematics_returns_the_pose(graph: Any) -> None:
+    start_arm(graph)
+    kinematics = Kinematics(arm("six_axis"))
+    state = arm("six_axis").state_of(_AWAY)
+    x, y, z = kinematics.link_pose(state, "tool0").position
+    w, qx, qy, qz = kinematics.link_pose(state, "tool0").quaternion
+    pose = {"position": {"x": x, "y": y, "z": z}, "orientation": {"x": qx, "y": qy, "z": qz, "w": w}}
+
+    asked = {"group_name": "arm", "pose_stamped": {"header": {"frame_id": "base_link"}, "pose": pose}}
+    solved = graph.call("/compute_ik", "moveit_msgs/GetPositionIK", ik_request={**asked, "avoid_collisions": True})
+    found = solved.solution
+    back = graph.call("/compute_fk", "moveit_msgs/GetPositionFK", fk_link_names=["tool0", "elbow"], robot_state=found)
+
+    assert solved.error_code.val == _SUCCESS
+    assert list(back.fk_link_names) == ["tool0"]
+    assert back.error_code.val == -18  # there is no elbow
+    p = back.pose_stamped[0].pose.position
+    np.testing.assert_allclose([p.x, p.y, p.z], [x, y, z], atol=1e-4)
+    far = {**pose, "position": {"x": 5.0}}
+    asked["pose_stamped"] = {"header": {"frame_id": "base_link"}, "pose": far}
+    assert graph.call("/compute_ik", "moveit_msgs/GetPositionIK", ik_request=asked).error_code.val == _NO_IK
+
+
+def test_a_cartesian_path_ends_where_an_object_is(graph: Any) -> None:
+    start_arm(graph)
+    model = arm("six_axis")
+    home = model.state_of(dict.fromkeys(ARM, 0.0) | {"joint_5": 0.8})
+    pose = Kinematics(model).link_pose(home, "tool0")
+    x, y, z = pose.position
+    w, qx, qy, qz = pose.quaternion
+    down = {"position": {"x": x, "y": y, "z": z - 0.2}, "orientation": {"x": qx, "y": qy, "z": qz, "w": w}}
+    asked: dict[str, Any] = {"group_name": "arm", "link_name": "tool0", "max_step": 0.01, "avoid_collisions": True}
+    asked |= {"waypoints": [down], "start_state": {"is_diff": True}}
+
+    free = graph.call("/compute_cartesian_path", "moveit_msgs/GetCartesianPath", **asked)
+    add(graph, box("floor", x, y, z - 0.25, (0.5, 0.5, 0.1)))
+    blocked = graph.call("/compute_cartesian_path", "moveit_msgs/GetCartesianPath", **asked)
+
+    assert free.fraction == 1.0
+    assert len(free.solution.joint_trajectory.points) >= 20
+    assert 0.0 < blocked.fraction < 1.0
+
+
+def test_planners_are_listed_with_their_settings(graph: Any) -> None:
+    configs = {"RRTConnect": {"type": "geometric::RRTConnect", "range": 0.5}}
+    start_arm(graph, planner_configs=configs, arm={"default_planner_config": "RRTConnect"})
+
+    listed = graph.call("/query_planner_interface", "moveit_msgs/QueryPlannerInterfaces").planner_interfaces
+    params = {"keys": ["range"], "values": ["0.7"]}
+    graph.call("/set_planner_params", "moveit_msgs/SetPlannerParams", planner_config="RRTConnect", params=params)
+    found = graph.call("/get_planner_params", "moveit_msgs/GetPlannerParams", planner_config="RRTConnect").params
+
+    assert listed[0].name == "OMPL"
+    assert "RRTConnect" in listed[0].planner_ids
+    assert dict(zip(found.keys, found.values, strict=True)) == {"type": "geometric::RRTConnect", "range": "0.7"}
