@@ -211,7 +211,6 @@ for data in (base64.b64encode(pickle.dumps({"x": Evil()})).decode(), "!!", base6
 @pytest.mark.parametrize(
     ("statement", "advice"),
     [
-        ("import moveit_commander", "follow_joint_trajectory"),
         ("from PyKDL import ChainIdSolver_RNE", "cannot import name 'ChainIdSolver_RNE'"),
         ("import PyKDL; PyKDL.ChainIdSolver_RNE", "python3-pykdl"),
         ("import genpy.generator", "genpy.dynamic.generate_dynamic"),

@@ -1,8 +1,19 @@
-"""Not available: moveit_commander wraps MoveIt's C++ libraries."""
+"""MoveIt's commands for Python programs: groups, the robot, the planning scene."""
 
-raise ImportError(
-    "moveit_commander needs MoveIt, which is compiled for one Linux release and cannot come with Trundle. Ways out: "
-    "run move_group and this node in a container with ROS Noetic (osrf/ros:noetic-desktop-full and "
-    "ros-noetic-moveit) with ROS_MASTER_URI naming Trundle's master; or send trajectories yourself to the "
-    "follow_joint_trajectory action of the robot's controller, with actionlib and control_msgs"
-)
+from .exception import MoveItCommanderException
+from .interpreter import MoveGroupCommandInterpreter, MoveGroupInfoLevel
+from .move_group import MoveGroupCommander
+from .planning_scene_interface import PlanningSceneInterface
+from .robot import RobotCommander
+from .roscpp_initializer import roscpp_initialize, roscpp_shutdown
+
+__all__ = [
+    "MoveGroupCommandInterpreter",
+    "MoveGroupCommander",
+    "MoveGroupInfoLevel",
+    "MoveItCommanderException",
+    "PlanningSceneInterface",
+    "RobotCommander",
+    "roscpp_initialize",
+    "roscpp_shutdown",
+]
