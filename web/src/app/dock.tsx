@@ -18,6 +18,7 @@ import { Button } from "../theme/button";
 import { Icon } from "../theme/icons";
 import { MenuButton } from "../theme/menu";
 import type { Layout } from "./layout";
+import { moveGroupNamespaces } from "../page/arms";
 import type { Page } from "../page/page";
 import { forEachNew } from "../page/session";
 import { recall, remember } from "../page/storage";
@@ -61,7 +62,7 @@ export class Dock {
     this.api = api;
     this.restore(api);
     const unfollow = forEachNew(
-      () => this.page.session.panels,
+      () => [...this.page.session.panels, ...armPrograms(this.page)],
       (program) => this.showProgram(api, program),
     );
     const saved = api.onDidLayoutChange(() => remember(this.key, api.toJSON()));
@@ -271,6 +272,11 @@ function Collapse({ layout }: { readonly layout: Layout }): JSX.Element {
   return (
     <Button icon={open ? "collapse_down" : "expand_up"} label={label} small onClick={() => layout.openDock(!open)} />
   );
+}
+
+/** move_group, where it runs: its panel is opened as that of a program of the launch. */
+function armPrograms({ connection }: Page): readonly string[] {
+  return moveGroupNamespaces(connection).length > 0 ? ["move_group"] : [];
 }
 
 function isLayout(value: unknown): value is SerializedDockview | null {

@@ -3,6 +3,7 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 
+import { moveGroupNamespaces } from "../page/arms";
 import { Icon, type IconName } from "../theme/icons";
 import type { SheetHeight } from "./layout";
 import type { Shell } from "./shell";
@@ -15,6 +16,7 @@ const PAGES: readonly { readonly id: string; readonly title: string; readonly ic
   { id: "plots", title: "Plots", icon: "plots" },
   { id: "log", title: "Log", icon: "log" },
 ];
+const ARM = { id: "motion_planning", title: "Arm", icon: "joint" } as const;
 const LESSON = { id: "lesson", title: "Lesson", icon: "lesson" } as const;
 const ORDER: readonly SheetHeight[] = ["closed", "half", "full"];
 const SWIPE = 40; // px
@@ -54,7 +56,7 @@ export function Sheet({ shell }: { readonly shell: Shell }): JSX.Element {
         }}
       />
       <nav aria-label="Pages of the sheet">
-        {[...PAGES, ...(shell.lessons.isShown.value ? [LESSON] : [])].map(({ id, title, icon }) => (
+        {pagesOf(shell).map(({ id, title, icon }) => (
           <button
             key={id}
             type="button"
@@ -75,6 +77,12 @@ export function Sheet({ shell }: { readonly shell: Shell }): JSX.Element {
       )}
     </section>
   );
+}
+
+/** Pages that are offered: that of an arm where move_group runs, that of a lesson where one is open. */
+function pagesOf({ page, lessons }: Shell): typeof PAGES {
+  const arm = moveGroupNamespaces(page.connection).length > 0 ? [ARM] : [];
+  return [...PAGES, ...arm, ...(lessons.isShown.value ? [LESSON] : [])];
 }
 
 function SheetPage({ shell, page }: { readonly shell: Shell; readonly page: string }): JSX.Element | null {

@@ -15,6 +15,7 @@ import { Layout } from "./layout";
 import { Lessons } from "./lessons/lessons";
 import { Notices } from "./notices/notices";
 import type { OpenMenu } from "./object_menu/open_menu";
+import { moveGroupNamespaces } from "../page/arms";
 import type { Page, Selection } from "../page/page";
 import { recallSplit } from "./panes/remembered_split";
 import { isBoolean, recall, remember } from "../page/storage";
@@ -96,9 +97,10 @@ export class Shell {
     });
   }
 
-  /** True if the dock has something to show at first: a robot's motion, plots, panels of programs, a recording. */
+  /** True if the dock has something to show at first: a robot's motion, an arm that plans, plots, panels of programs, a recording. */
   private fillsDock(): boolean {
-    const { session, drive } = this.page;
+    const { session, drive, connection } = this.page;
+    if (moveGroupNamespaces(connection).length > 0) return true;
     const isRecorded = session.kind === "log" || session.kind === "bag";
     return isRecorded || drive.topic.value !== null || session.plots.length > 0 || session.panels.length > 0;
   }

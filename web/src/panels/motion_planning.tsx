@@ -133,7 +133,7 @@ function Status({ page, state, display }: TabProps): JSX.Element {
 export const motionPlanningPanel: Panel = {
   id: "motion_planning",
   title: "MotionPlanning",
-  programs: [],
+  programs: ["move_group"],
   component: MotionPlanning,
   contentHeight: () => CONTENT_HEIGHT,
 };
