@@ -6,7 +6,7 @@ from .target import Target
 
 _FAMILIES = {
     "descriptions": ("sdf", "urdf", "xacro", "model.config", "package.xml", "material", "scene"),
-    "launches": ("launch", "yaml", "map"),
+    "launches": ("launch", "yaml", "map", "pgm"),
     "messages": ("msg", "srv", "action", "definition", "cfg", "message"),
     "meshes": ("stl", "obj", "dae", "glb", "skin", "bvh"),
     "images": ("png", "jpeg", "tiff", "dem"),
@@ -14,6 +14,7 @@ _FAMILIES = {
     "plans": ("sweep", "dataset"),
     "rviz": ("rviz",),
     "graph": ("xmlrpc", "slave", "tcpros", "tcpros-client", "service-client"),
+    "navigation": ("navigation",),
     "web": ("foxglove", "http", "upload", "zip", "rosbridge", "rosbridge-tcp"),
 }
 TARGETS = {name: family for family, names in _FAMILIES.items() for name in names}
@@ -22,6 +23,7 @@ NATIVE = frozenset(
     {
         "scene", "msg", "srv", "action", "definition", "message", "stl", "obj", "dae", "glb", "bag", "rosrecord",
         "mcap", "tcpros", "tcpros-client", "service-client", "foxglove", "rosbridge", "rosbridge-tcp",
+        "navigation",
     }
 )  # fmt: skip
 """Targets that run C++ code, with sanitizers."""

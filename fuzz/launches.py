@@ -51,6 +51,18 @@ def _open_map(folder: Path) -> Generator[Execute]:
         yield execute
 
 
+@contextmanager
+def _open_picture(folder: Path) -> Generator[Execute]:
+    """Read a map's picture."""
+    (folder / "map.yaml").write_bytes(seed("map.yaml"))
+
+    def execute(data: bytes) -> None:
+        write_file(folder / "map.pgm", data)
+        read_map(folder / "map.yaml")
+
+    yield execute
+
+
 TARGETS = {
     "launch": Target(
         open=_open_launch,
@@ -63,6 +75,11 @@ TARGETS = {
         seeds=lambda: [seed("parameters.yaml")],
         words=_WORDS,
         corpus=("repos/**/*.yaml",),
+    ),
+    "pgm": Target(
+        open=_open_picture,
+        seeds=lambda: [picture("PPM", "L"), b"P2 # map\n2 2 255\n0 254 205 7\n"],
+        words=(b"P2", b"P5", b"P6", b"# c\n", b"65535", b"-1", b"99999999999", b"0"),
     ),
     "map": Target(open=_open_map, seeds=lambda: [seed("map.yaml")], words=_WORDS),
 }

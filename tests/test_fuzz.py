@@ -15,7 +15,7 @@ from hypothesis import given, settings, strategies as st
 
 from trundle.base.diagnostics import TrundleError
 
-SERVERS = [name for name, family in TARGETS.items() if family in ("graph", "web")]
+SERVERS = [name for name, family in TARGETS.items() if family in ("graph", "navigation", "web")]
 FILES = [name for name in TARGETS if name not in SERVERS]
 FAULTY = """
 import sys

@@ -5,6 +5,9 @@ from typing import Any
 
 from trundle.spatial import Pose, Vector3
 
+_MAX_M = 1e9
+"""Beyond it the squares and products of positions overflow, or lose all digits."""
+_MIN_NORM = 1e-9
 PlanarPose = tuple[float, float, float]
 """x, y [m], yaw [rad]."""
 
@@ -13,13 +16,13 @@ def read_pose(message: Any) -> Pose:
     """Convert a geometry_msgs/Pose.
 
     Raises:
-        ValueError: a number is not finite, or the orientation is all zeros.
+        ValueError: a number is not finite, a position is beyond 1e9 m, or the orientation is all zeros.
     """
     position: Vector3 = (message.position.x, message.position.y, message.position.z)
     q = message.orientation
     norm = math.hypot(q.w, q.x, q.y, q.z)
-    if not math.isfinite(norm + sum(position)) or norm == 0.0:
-        raise ValueError("the pose has numbers that are not finite, or an orientation of zeros")
+    if not math.isfinite(norm) or norm < _MIN_NORM or not all(abs(value) <= _MAX_M for value in position):
+        raise ValueError("the pose has numbers that are not finite or beyond 1e9 m, or an orientation of zeros")
     return Pose(position, (q.w / norm, q.x / norm, q.y / norm, q.z / norm))
 
 

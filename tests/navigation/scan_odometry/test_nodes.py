@@ -39,7 +39,7 @@ def test_the_matcher_publishes_poses_and_the_transform(graph: Any) -> None:
 
 
 def test_the_matcher_is_led_by_odometry_over_a_jump(graph: Any) -> None:
-    """Scans 0.8 m apart are too far for the match alone."""
+    """Scans 0.8 m apart are too far for the match alone; poses beyond measure are ignored."""
     poses = graph.listen("/pose2D", "geometry_msgs/Pose2D")
     StaticTransformBroadcaster(graph.client).send_transform(Transform(parent="base_link", child="base_scan"))
     graph.start("laser_scan_matcher/laser_scan_matcher_node", publish_tf=False)
@@ -47,6 +47,8 @@ def test_the_matcher_is_led_by_odometry_over_a_jump(graph: Any) -> None:
     scans_in = graph.advertise("/scan", "sensor_msgs/LaserScan")
     graph.until(lambda: graph.linked("/pose2D"))
     for number, ranges in enumerate(scans([(1.0, 1.0, math.pi / 2), (1.0, 1.8, math.pi / 2)])):
+        wild = {"position": {"x": 1e308}, "orientation": {"w": 1.0}}
+        odometry.publish({"pose": {"pose": wild}})
         pose = {"position": {"x": 5.0 + 0.78 * number}, "orientation": {"w": 1.0}}
         odometry.publish({"pose": {"pose": pose}})
         time.sleep(0.2)  # the topics' order is not fixed

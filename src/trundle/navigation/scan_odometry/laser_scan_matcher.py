@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 _QUEUE = 5
 _Ratio = Annotated[float, Meta(ge=0.0, le=1.0)]
 _Length = Annotated[float, Meta(ge=0.0, le=1000.0)]
+_MAX_SPEED = 1e4
+"""[m/s], [rad/s]"""
 
 
 class MatcherSettings(Struct):
@@ -171,7 +173,7 @@ class LaserScanMatcher:
     def _on_velocity(self, message: Any) -> None:
         twist = getattr(message, "twist", message)
         velocity = (twist.linear.x, twist.linear.y, twist.angular.z)
-        if all(map(math.isfinite, velocity)):
+        if all(abs(value) <= _MAX_SPEED for value in velocity):
             self._velocity = velocity
 
     def _predict(self, dt: float) -> Pose:
