@@ -1,4 +1,4 @@
-"""The C++ kernels by themselves: clipping, trees of boxes, rays, contacts, controllers' laws, graphs of poses."""
+"""The C++ kernels by themselves: clipping, boxes, rays, contacts, controllers' laws, graphs of poses, navigation."""
 
 import shutil
 import subprocess
