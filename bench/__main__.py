@@ -31,6 +31,7 @@ BENCHES = {
     "images": "image topics",
     "kinematics": "inverse kinematics of an arm",
     "navigation": "amcl and move_base in a house, twenty tours",
+    "navigation_parts": "amcl, gmapping, costmaps and planners alone",
     "renderer": "pictures and scans against MuJoCo and PyBullet",
     "dataset": "labelled pictures",
     "page_feed": "CPU time of serving pages",
