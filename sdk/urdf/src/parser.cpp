@@ -6,14 +6,13 @@
 #include <locale>
 #include <sstream>
 
+#include "urdf_parser/shallow_xml.h"
 #include "urdf_parser/urdf_parser.h"
 
 namespace urdf {
 namespace {
 
 using boost::property_tree::ptree;
-
-constexpr size_t kMaxDepth = 100;  // the reader of XML calls itself for each element
 
 std::vector<double> numbers(const std::string& text) {
   std::istringstream stream(text);
@@ -222,18 +221,6 @@ void connect(ModelInterface& model) {
     model.root_link_ = entry.second;
   }
   if (!model.root_link_) throw ParseError("No root link found: the joints make a loop");
-}
-
-/** Shallow enough for the reader; comments count as well, but no robot is near the limit. */
-bool isShallow(const std::string& xml) {
-  size_t depth = 0;
-  for (size_t i = 0; i + 1 < xml.size(); ++i) {
-    const bool is_end = (xml[i] == '<' && xml[i + 1] == '/') || (xml[i] == '/' && xml[i + 1] == '>');
-    const bool is_start = xml[i] == '<' && xml[i + 1] != '/' && xml[i + 1] != '!' && xml[i + 1] != '?';
-    if (is_start && ++depth > kMaxDepth) return false;
-    if (is_end && depth > 0) --depth;
-  }
-  return true;
 }
 
 void read(const std::string& xml, ModelInterface& model) {

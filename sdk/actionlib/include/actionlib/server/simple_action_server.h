@@ -118,10 +118,8 @@ class SimpleActionServer {
     feedback_.publish(message);
   }
   void registerGoalCallback(boost::function<void()> callback) {
-    if (execute_)
-      ROS_WARN("Cannot call SimpleActionServer::registerGoalCallback() because an executeCallback exists.");
-    else
-      goal_callback_ = callback;
+    if (execute_) ROS_WARN("Cannot call SimpleActionServer::registerGoalCallback() because an executeCallback exists.");
+    else goal_callback_ = callback;
   }
   void registerPreemptCallback(boost::function<void()> callback) { preempt_callback_ = callback; }
 
@@ -234,8 +232,9 @@ class SimpleActionServer {
       const std::lock_guard<std::recursive_mutex> lock(mutex_);
       if (!isActive()) continue;
       ROS_WARN("Your executeCallback did not set the goal to a terminal status. Fix your ActionServer implementation!");
-      setAborted(Result(), "This goal was aborted by the simple action server. The user should have set a terminal "
-                           "status on this goal and did not");
+      setAborted(Result(),
+                 "This goal was aborted by the simple action server. The user should have set a terminal "
+                 "status on this goal and did not");
     }
   }
 

@@ -6,4 +6,4 @@ namespace tf {
 using tf2::Quaternion;
 using tf2::quatRotate;
 using tf2::slerp;
-}
+}  // namespace tf

@@ -15,9 +15,8 @@ class Matrix3x3 {
     setValue(xx, xy, xz, yx, yy, yz, zx, zy, zz);
   }
 
-  void setValue(const tf2Scalar& xx, const tf2Scalar& xy, const tf2Scalar& xz, const tf2Scalar& yx,
-                const tf2Scalar& yy, const tf2Scalar& yz, const tf2Scalar& zx, const tf2Scalar& zy,
-                const tf2Scalar& zz) {
+  void setValue(const tf2Scalar& xx, const tf2Scalar& xy, const tf2Scalar& xz, const tf2Scalar& yx, const tf2Scalar& yy,
+                const tf2Scalar& yz, const tf2Scalar& zx, const tf2Scalar& zy, const tf2Scalar& zz) {
     rows_[0] = Vector3(xx, xy, xz);
     rows_[1] = Vector3(yx, yy, yz);
     rows_[2] = Vector3(zx, zy, zz);
@@ -39,14 +38,10 @@ class Matrix3x3 {
     const tf2Scalar xx = rows_[0].x(), yy = rows_[1].y(), zz = rows_[2].z(), trace = xx + yy + zz;
     const tf2Scalar a = rows_[2].y() - rows_[1].z(), b = rows_[0].z() - rows_[2].x(), c = rows_[1].x() - rows_[0].y();
     const tf2Scalar d = rows_[0].y() + rows_[1].x(), e = rows_[0].z() + rows_[2].x(), f = rows_[1].z() + rows_[2].y();
-    if (trace >= xx && trace >= yy && trace >= zz)
-      q = Quaternion(a, b, c, 1.0 + trace);
-    else if (xx >= yy && xx >= zz)
-      q = Quaternion(1.0 + xx - yy - zz, d, e, a);
-    else if (yy >= zz)
-      q = Quaternion(d, 1.0 + yy - xx - zz, f, b);
-    else
-      q = Quaternion(e, f, 1.0 + zz - xx - yy, c);
+    if (trace >= xx && trace >= yy && trace >= zz) q = Quaternion(a, b, c, 1.0 + trace);
+    else if (xx >= yy && xx >= zz) q = Quaternion(1.0 + xx - yy - zz, d, e, a);
+    else if (yy >= zz) q = Quaternion(d, 1.0 + yy - xx - zz, f, b);
+    else q = Quaternion(e, f, 1.0 + zz - xx - yy, c);
     q.normalize();
   }
   void setRPY(tf2Scalar roll, tf2Scalar pitch, tf2Scalar yaw) {

@@ -44,8 +44,8 @@ class Quaternion {
   void setEulerZYX(const tf2Scalar& yaw, const tf2Scalar& pitch, const tf2Scalar& roll) { setRPY(roll, pitch, yaw); }
   /** Yaw about y, pitch about x, roll about z, as in Bullet [rad]. */
   void setEuler(const tf2Scalar& yaw, const tf2Scalar& pitch, const tf2Scalar& roll) {
-    *this = Quaternion(Vector3(0, 1, 0), yaw) * Quaternion(Vector3(1, 0, 0), pitch) *
-            Quaternion(Vector3(0, 0, 1), roll);
+    *this =
+        Quaternion(Vector3(0, 1, 0), yaw) * Quaternion(Vector3(1, 0, 0), pitch) * Quaternion(Vector3(0, 0, 1), roll);
   }
 
   tf2Scalar dot(const Quaternion& q) const { return x() * q.x() + y() * q.y() + z() * q.z() + w() * q.w(); }

@@ -1,0 +1,5 @@
+# Eigen of the machine, whose headers those of moveit_core include.
+find_package(Eigen3 QUIET)
+if(EIGEN3_INCLUDE_DIRS)
+  list(APPEND moveit_core_INCLUDE_DIRS ${EIGEN3_INCLUDE_DIRS})
+endif()

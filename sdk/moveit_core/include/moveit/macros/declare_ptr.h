@@ -1,0 +1,3 @@
+#pragma once
+
+#include <moveit/macros/class_forward.h>
