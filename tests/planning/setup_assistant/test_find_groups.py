@@ -71,6 +71,18 @@ def test_arms_without_sides_are_numbered() -> None:
     assert [arm.name for arm in found] == ["1_arm", "2_arm"]
 
 
+def test_an_arm_begins_at_the_link_to_which_it_is_fixed() -> None:
+    """As universal_robot's base_link, but not at the world, nor at a torso with two arms."""
+    flange = [("fixed", "mount", "base_link", "base_inertia"), *_chain("", "base_inertia", 6)]
+    torso = [("fixed", f"{side}_mount", "torso", f"{side}_base") for side in "lr"]
+    arms = [joint for side in "lr" for joint in _chain(f"{side}_", f"{side}_base", 6)]
+
+    assert _one(_robot(*flange)).base_link == "base_link"
+    assert _one(_robot(("fixed", "root", "world", "base_link"), *flange)).base_link == "base_link"
+    found = find_groups(_robot(*torso, *arms)).arms
+    assert [(arm.name, arm.base_link) for arm in found] == [("left_arm", "l_base"), ("right_arm", "r_base")]
+
+
 def test_wheels_belong_to_no_arm() -> None:
     wheels = [("continuous", f"wheel_{side}", "base", f"wheel_{side}_link") for side in "lr"]
     found = find_groups(_robot(*wheels, *_chain("", "base", 5)))

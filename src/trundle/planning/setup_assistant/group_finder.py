@@ -15,6 +15,10 @@ _TIPS = re.compile(r"tool0|tcp|flange|ee_|_ee|end_effector|grasp|grip_center|too
 _SIDES = re.compile(r"(?:^|_)(left|right|front|rear|upper|lower|[lr])(?=_)", re.IGNORECASE)
 
 
+_WORDS = {"l": "left", "r": "right"}
+WORLD = "world"
+
+
 class FoundGripper(Struct, frozen=True, kw_only=True):
     """Joints at the end of an arm."""
 
@@ -111,11 +115,12 @@ class _Finder:
 
     def arm(self, chain: list[JointModel], chains: list[list[JointModel]]) -> FoundArm:
         """Return the arm of a chain, with its tip and gripper."""
+        base = self._base(chain)
         chain = self._without_fixed_start(chain)
         side = _side(chain) if len(chains) > 1 else ""
         if len(chains) > 1 and not side:
             side = f"{next(i for i, other in enumerate(chains, 1) if other[-1] is chain[-1])}_"
-        base, end = chain[0].parent_link, chain[-1].child_link
+        end = chain[-1].child_link
         active = tuple(joint.name for joint in chain if joint.is_active)
         branches = self._branches(end)
         if not branches:
@@ -137,6 +142,15 @@ class _Finder:
         return FoundArm(
             name=f"{side}arm", base_link=base, tip_link=self._tip_beside(parent), joints=active, gripper=gripper
         )
+
+    def _base(self, chain: list[JointModel]) -> str:
+        """Return the link that holds the first joint that moves, or one to which it is fixed, but not the world."""
+        base = self._without_fixed_start(chain)[0].parent_link
+        for joint in reversed(chain[: next(i for i, joint in enumerate(chain) if joint.variables)]):
+            if joint.parent_link == WORLD or len(self._branches(joint.parent_link)) > 1:
+                break
+            base = joint.parent_link
+        return base
 
     def _without_fixed_start(self, chain: list[JointModel]) -> list[JointModel]:
         first = next(i for i, joint in enumerate(chain) if joint.variables)
@@ -177,5 +191,7 @@ def _active(chain: list[JointModel]) -> int:
 def _side(chain: list[JointModel]) -> str:
     """Return `left_` where all joints of a chain say so."""
     words = [{word.lower() for word in _SIDES.findall(f"_{joint.name}_")} for joint in chain if joint.variables]
-    common = [word for word in sorted(words[0]) if all(word in others for others in words)] if words else []
-    return f"{common[0]}_" if common else ""
+    for word in sorted(words[0]):
+        if all(word in others for others in words):
+            return f"{_WORDS.get(word, word)}_"
+    return ""

@@ -15,9 +15,8 @@ from trundle.planning.robot_model import (
     SrdfVirtualJoint,
 )
 
-from .group_finder import FoundGripper, FoundGroups
+from .group_finder import WORLD, FoundGripper, FoundGroups
 
-WORLD = "world"
 _AT = Source("setup_assistant")
 
 
