@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 import yaml
 from tests.planning.arms import FOLDER, arm
+from tests.planning.move_group.arm_goals import run
 
 from trundle.app.cli import main
 from trundle.base.diagnostics import Diagnostics, UsageError
@@ -143,6 +144,20 @@ def test_launch_files_of_a_made_package_have_no_warnings(
     assert (package / "config" / "six_axis.urdf").is_file() == ("://" not in urdf)
     for name in _LAUNCH:
         assert _launch_warnings(package, name) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["six_axis", "seven_axis", "scara"])
+def test_an_arm_plans_and_moves_by_its_made_package(name: str, folder: Path) -> None:
+    """The whole path: a URDF, its package, move_group, random goals executed by fake controllers."""
+    assert main(["new", "moveit_config", "own_moveit_config", "--urdf", str(FOLDER / f"{name}.urdf")]) == 0
+    demo = folder / "own_moveit_config" / "launch" / "demo.launch"
+
+    figures = run([str(demo), "use_rviz:=false", "fake_execution_type:=last point"], goals=15, folder=folder)
+
+    assert figures["goals"] == 15
+    assert figures["executed"] == 15
+    assert figures["collisions"] == figures["beyond_limits"] == 0
 
 
 def test_faulty_commands_write_nothing(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
