@@ -6,6 +6,7 @@ from .target import Target
 
 _FAMILIES = {
     "descriptions": ("sdf", "urdf", "xacro", "model.config", "package.xml", "material", "scene"),
+    "arms": ("arm-urdf", "srdf", "joint-limits", "moveit-config"),
     "launches": ("launch", "yaml", "map", "pgm"),
     "messages": ("msg", "srv", "action", "definition", "cfg", "message"),
     "meshes": ("stl", "obj", "dae", "glb", "skin", "bvh"),
@@ -23,7 +24,7 @@ NATIVE = frozenset(
     {
         "scene", "msg", "srv", "action", "definition", "message", "stl", "obj", "dae", "glb", "bag", "rosrecord",
         "mcap", "tcpros", "tcpros-client", "service-client", "foxglove", "rosbridge", "rosbridge-tcp",
-        "navigation",
+        "navigation", "arm-urdf", "srdf", "joint-limits", "moveit-config",
     }
 )  # fmt: skip
 """Targets that run C++ code, with sanitizers."""
