@@ -29,6 +29,7 @@ BENCHES = {
     "contacts": "piles, walls and contact sensors",
     "house": "a furnished house",
     "images": "image topics",
+    "arm_planning": "plans of an arm in four scenes",
     "kinematics": "inverse kinematics of an arm",
     "navigation": "amcl and move_base in a house, twenty tours",
     "navigation_parts": "amcl, gmapping, costmaps and planners alone",

@@ -42,6 +42,14 @@ struct NearestBodies {
   Vec3 on_a, on_b;
 };
 
+// How far points move, at most, in a motion [m]: those of each body that moves in the model frame, and those of two
+// such bodies relative to each other.
+struct MotionBounds {
+  std::vector<double> bodies, pairs;
+
+  double greatest() const;
+};
+
 // Which bodies a check is about: with links, contacts of bodies that one of them carries; without, all.
 using LinkMask = std::vector<bool>;
 
@@ -60,8 +68,12 @@ class CollisionWorld {
   // Contacts of two bodies are allowed, or count.
   void allow(int a, int b, bool is_allowed);
 
-  // True if all bodies that may not touch are more than a margin [m] apart.
-  bool is_free(std::span<const double> state, const LinkMask* mask, double margin = 0.0);
+  bool is_free(std::span<const double> state, const LinkMask* mask);
+  // True if no motion of some bounds, scaled, from a state can touch anything.
+  bool is_free_within(std::span<const double> state, const LinkMask* mask, const MotionBounds& bounds, double scale);
+  // Bounds of the motion per unit of each of some variables; `extents` are their greatest absolute values.
+  std::vector<MotionBounds> motion_bounds(std::span<const int> variables, std::span<const double> extents,
+                                          std::span<const double> state);
   std::vector<BodyContact> contacts(std::span<const double> state, const LinkMask* mask, std::size_t max_count,
                                     std::size_t max_per_pair);
   // Nearest pair of bodies that may not touch, up to a cutoff; negative: the greatest depth.
@@ -86,14 +98,15 @@ class CollisionWorld {
   struct Fixed {  // piece of the world
     int number;
     const Piece* piece;
+    double padding;
   };
 
   void prepare();
   void place(std::span<const double> state);
   bool is_allowed(int a, int b) const { return allowed_.contains(std::minmax(a, b)); }
 
-  // Call visit(number a, piece a, pose a, number b, piece b, pose b, padding) for all pairs whose boxes are within
-  // `reach()` [m]; stop when it returns false.
+  // Call visit(number a, piece a, pose a, number b, piece b, pose b, padding, reach) for all pairs whose boxes are
+  // within reach(mover, pair) [m], one of which is -1; stop when it returns false.
   template <typename Reach, typename Visit>
   bool visit_pairs(const LinkMask* mask, Reach reach, Visit visit);
 

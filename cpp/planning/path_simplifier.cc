@@ -10,6 +10,8 @@ namespace trundle::planning {
 
 namespace {
 
+constexpr double kLeastGain = 0.01;  // of the length of a part, below which a shortcut is not worth its checks
+
 bool can_go(Validity& validity, std::span<const double> a, std::span<const double> b) {
   return validity.is_motion_valid(a, b, false) && validity.is_motion_valid(a, b, true);
 }
@@ -32,21 +34,38 @@ class Simplifier {
       : validity_(validity), space_(validity.space()), path_(path), random_(random), deadline_(deadline) {}
 
   // Join two random points of the path by the direct way, if that is shorter.
-  void shortcut(int attempts) {
-    for (int i = 0; i < attempts && path_.size() > 2 && !deadline_.is_over(); ++i) {
+  void shortcut(int attempts, int patience) {
+    int in_vain = 0;
+    for (int i = 0; i < attempts && in_vain < patience && path_.size() > 2 && !deadline_.is_over(); ++i) {
+      ++in_vain;
       auto [first, a, last, b] = two_points();
       if (last <= first) continue;
+      const double before = length_between(first, a, last, b);
+      if (space_.distance(a, b) >= before * (1.0 - kLeastGain)) continue;
       std::vector<State> way = direct_way(validity_, a, b);
-      if (way.empty() || way_length(a, way) >= length_between(first, a, last, b) - 1e-6) continue;
+      if (way.empty() || way_length(a, way) >= before - 1e-6) continue;
+      in_vain = 0;
       way.insert(way.begin(), a);
       replace(first, last, std::move(way));
     }
   }
 
+  // Leave out waypoints between which there is a direct way, the longest part first.
+  void drop_waypoints() {
+    if (validity_.is_constrained()) return;
+    for (std::size_t i = 0; i + 2 < path_.size() && !deadline_.is_over();) {
+      const bool is_free = can_go(validity_, path_[i], path_[i + 2]);
+      if (is_free) path_.erase(path_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      else ++i;
+    }
+  }
+
   // The same for one variable alone: the others go on as they did.
-  void shortcut_variable(int attempts) {
+  void shortcut_variable(int attempts, int patience) {
     if (validity_.is_constrained() || space_.has_quaternions()) return;
-    for (int i = 0; i < attempts && path_.size() > 2 && !deadline_.is_over(); ++i) {
+    int in_vain = 0;
+    for (int i = 0; i < attempts && in_vain < patience && path_.size() > 2 && !deadline_.is_over(); ++i) {
+      ++in_vain;
       auto [first, a, last, b] = two_points();
       const std::size_t k = random_.index(a.size());
       if (last <= first || space_.dimensions()[k].is_circle) continue;
@@ -61,27 +80,28 @@ class Simplifier {
       for (std::size_t j = 1; j + 1 < way.size(); ++j) way[j][k] = a[k] + at[j] / total * (b[k] - a[k]);
       double after = 0.0;
       for (std::size_t j = 1; j < way.size(); ++j) after += space_.distance(way[j - 1], way[j]);
-      if (after >= before - 1e-6 || !is_way_valid(way)) continue;
+      if (after >= before * (1.0 - 0.1 * kLeastGain) || !is_way_valid(way)) continue;
+      in_vain = 0;
       replace(first, last, std::move(way));
     }
   }
 
-  // Replace each corner by two, as Chaikin does, where that is valid.
-  void cut_corners() {
+  // Replace each corner by two that are at most `cut` before and after it, where that is valid.
+  void cut_corners(double cut) {
     if (validity_.is_constrained() || path_.size() < 3) return;
     std::vector<State> smooth{path_.front()};
     State before(space_.size()), after(space_.size());
-    for (std::size_t i = 1; i + 1 < path_.size() && !deadline_.is_over(); ++i) {
-      space_.interpolate(smooth.back(), path_[i], 0.75, before);
-      space_.interpolate(path_[i], path_[i + 1], 0.25, after);
-      if (validity_.is_valid(before) && validity_.is_valid(after) && can_go(validity_, before, after)) {
+    for (std::size_t i = 1; i + 1 < path_.size(); ++i) {
+      const double in = space_.distance(path_[i - 1], path_[i]), out = space_.distance(path_[i], path_[i + 1]);
+      space_.interpolate(path_[i], path_[i - 1], std::min(0.4, cut / std::max(in, 1e-9)), before);
+      space_.interpolate(path_[i], path_[i + 1], std::min(0.4, cut / std::max(out, 1e-9)), after);
+      if (!deadline_.is_over() && can_go(validity_, before, after)) {
         smooth.push_back(before);
         smooth.push_back(after);
       } else {
         smooth.push_back(path_[i]);
       }
     }
-    if (deadline_.is_over()) return;
     smooth.push_back(path_.back());
     path_ = std::move(smooth);
   }
@@ -182,9 +202,11 @@ void simplify(Validity& validity, std::vector<State>& path, const SimplifierSett
     return;
   }
   Simplifier simplifier(validity, path, random, deadline);
-  simplifier.shortcut(settings.shortcuts);
-  simplifier.shortcut_variable(settings.partial_shortcuts);
-  for (int i = 0; i < settings.smoothings; ++i) simplifier.cut_corners();
+  simplifier.drop_waypoints();
+  simplifier.shortcut(settings.shortcuts, settings.patience);
+  simplifier.shortcut_variable(settings.partial_shortcuts, settings.patience);
+  simplifier.drop_waypoints();
+  simplifier.cut_corners(settings.cut);
 }
 
 int find_invalid_part(Validity& validity, const std::vector<State>& path) {

@@ -8,9 +8,10 @@
 namespace trundle::planning {
 
 struct SimplifierSettings {
-  int shortcuts = 100;
-  int partial_shortcuts = 60;  // Geraerts and Overmars 2007
-  int smoothings = 2;          // rounds in which corners are cut
+  int shortcuts = 60;
+  int partial_shortcuts = 30;  // Geraerts and Overmars 2007
+  int patience = 15;           // shortcuts in a row that gain nothing
+  double cut = 0.15;           // [rad, m] greatest length that is cut off before and after a corner
 };
 
 double path_length(const StateSpace& space, const std::vector<State>& path);

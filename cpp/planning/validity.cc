@@ -33,48 +33,10 @@ Validity::Validity(CollisionWorld& world, GroupTask task)
       task_(std::move(task)),
       full_(task_.reference),
       projection_(world_.tree(), task_.space, task_.variables) {
-  find_reach();
-}
-
-// An upper bound: the way along the links from a joint to the farthest point of what it moves.
-void Validity::find_reach() {
-  const LinkTree& tree = world_.tree();
-  std::vector<double> below(tree.size(), 0.0);  // from a link's origin to the farthest point below it
-  for (const auto& [number, body] : world_.bodies()) {
-    if (body.link < 0) continue;
-    double& farthest = below[static_cast<std::size_t>(body.link)];
-    for (const Piece& piece : body.pieces)
-      farthest = std::max(farthest, norm(piece.pose * piece.shape->center) + piece.shape->radius);
-  }
-  for (std::size_t i = tree.size(); i-- > 0;) {
-    const TreeJoint& joint = tree.joint(i);
-    if (joint.parent < 0) continue;
-    double away = norm(joint.origin.p);
-    if (joint.kind == JointKind::kPrismatic) {
-      for (std::size_t k = 0; k < task_.variables.size(); ++k)
-        if (task_.variables[k] == joint.variable) {
-          const Dimension& dimension = task_.space.dimensions()[k];
-          away += std::max(std::abs(dimension.lower), std::abs(dimension.upper));
-        }
-    }
-    double& parent = below[static_cast<std::size_t>(joint.parent)];
-    parent = std::max(parent, away + below[i]);
-  }
-  reach_.assign(task_.variables.size(), 0.0);
-  for (std::size_t i = 0; i < tree.size(); ++i) {
-    const TreeJoint& joint = tree.joint(i);
-    for (std::size_t k = 0; k < task_.variables.size(); ++k) {
-      const int variable = task_.variables[k];
-      if (joint.kind == JointKind::kRevolute && (joint.leader < 0 ? joint.variable : joint.leader) == variable)
-        reach_[k] = std::max(reach_[k], std::abs(joint.leader < 0 ? 1.0 : joint.multiplier) * below[i]);
-      else if (joint.kind == JointKind::kPrismatic && (joint.leader < 0 ? joint.variable : joint.leader) == variable)
-        reach_[k] = std::max(reach_[k], 1.0);
-      else if (joint.kind == JointKind::kPlanar && variable >= joint.variable && variable < joint.variable + 3)
-        reach_[k] = std::max(reach_[k], variable == joint.variable + 2 ? below[i] : 1.0);
-      else if (joint.kind == JointKind::kFloating && variable >= joint.variable && variable < joint.variable + 7)
-        reach_[k] = std::max(reach_[k], variable >= joint.variable + 3 ? 2.0 * below[i] : 1.0);
-    }
-  }
+  std::vector<double> extents;
+  for (const Dimension& dimension : task_.space.dimensions())
+    extents.push_back(std::max(std::abs(dimension.lower), std::abs(dimension.upper)));
+  reach_ = world_.motion_bounds(task_.variables, extents, task_.reference);
 }
 
 const State& Validity::full(std::span<const double> group) {
@@ -82,9 +44,9 @@ const State& Validity::full(std::span<const double> group) {
   return full_;
 }
 
-bool Validity::is_free(std::span<const double> group, double margin) {
+bool Validity::is_free(std::span<const double> group) {
   ++checks;
-  return !task_.avoids_collisions || world_.is_free(full(group), task_.mask.empty() ? nullptr : &task_.mask, margin);
+  return !task_.avoids_collisions || world_.is_free(full(group), task_.mask.empty() ? nullptr : &task_.mask);
 }
 
 bool Validity::keeps_constraints(std::span<const double> group) {
@@ -114,14 +76,16 @@ int Validity::parts(std::span<const double> a, std::span<const double> b) const 
   return std::max(1, static_cast<int>(std::min(count, static_cast<double>(kMaxParts))));
 }
 
-double Validity::swept(std::span<const double> a, std::span<const double> b) const {
-  double way = 0.0;
+void Validity::find_swept(std::span<const double> a, std::span<const double> b) {
+  swept_.bodies.assign(reach_.empty() ? 0 : reach_[0].bodies.size(), 0.0);
+  swept_.pairs.assign(reach_.empty() ? 0 : reach_[0].pairs.size(), 0.0);
   for (std::size_t k = 0; k < a.size(); ++k) {
     double apart = std::abs(b[k] - a[k]);
     if (task_.space.dimensions()[k].is_circle) apart = std::min(apart, 2.0 * std::numbers::pi - apart);
-    way += reach_[k] * apart;
+    for (std::size_t i = 0; i < swept_.bodies.size(); ++i) swept_.bodies[i] += apart * reach_[k].bodies[i];
+    for (std::size_t i = 0; i < swept_.pairs.size(); ++i) swept_.pairs[i] += apart * reach_[k].pairs[i];
   }
-  return way;
+  greatest_ = swept_.greatest();
 }
 
 bool Validity::is_motion_valid(std::span<const double> a, std::span<const double> b, bool finely) {
@@ -137,22 +101,20 @@ bool Validity::is_motion_valid(std::span<const double> a, std::span<const double
       if (!keeps_constraints(between_) || !is_free(between_)) return false;
     }
   if (!finely) return true;
-  const double way = swept(a, b);
-  for (int i = 0; i < count; ++i)
-    if (!is_part_valid(a, b, static_cast<double>(i) / count, static_cast<double>(i + 1) / count, way)) return false;
-  return true;
+  if (!task_.avoids_collisions) return true;
+  find_swept(a, b);
+  return is_part_valid(a, b, 0.0, 1.0);
 }
 
 // If everything is farther away in the middle than any point moves from there, nothing is touched.
-bool Validity::is_part_valid(std::span<const double> a, std::span<const double> b, double from, double to,
-                             double swept) {
-  const double middle = 0.5 * (from + to), half = 0.5 * (to - from) * swept;
+bool Validity::is_part_valid(std::span<const double> a, std::span<const double> b, double from, double to) {
+  const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
   task_.space.interpolate(a, b, middle, between_);
-  if (!keeps_constraints(between_)) return false;
-  if (is_free(between_, half)) return true;
+  ++checks;
+  if (world_.is_free_within(full(between_), task_.mask.empty() ? nullptr : &task_.mask, swept_, half)) return true;
   if (!is_free(between_)) return false;
-  if (2.0 * half <= task_.sweep) return true;
-  return is_part_valid(a, b, from, middle, swept) && is_part_valid(a, b, middle, to, swept);
+  if (2.0 * half * greatest_ <= task_.sweep) return keeps_constraints(between_);
+  return is_part_valid(a, b, from, middle) && is_part_valid(a, b, middle, to);
 }
 
 }  // namespace trundle::planning

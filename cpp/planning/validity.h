@@ -50,7 +50,7 @@ class Validity {
   const State& full(std::span<const double> group);
 
   bool is_valid(std::span<const double> group);
-  bool is_free(std::span<const double> group, double margin = 0.0);
+  bool is_free(std::span<const double> group);
   bool keeps_constraints(std::span<const double> group);
   // Move onto the path constraints; false: not possible.
   bool project(std::span<double> group, std::span<const PoseConstraint> more = {});
@@ -62,18 +62,19 @@ class Validity {
   long long checks = 0;  // of states
 
  private:
-  void find_reach();
   // Number of parts into which a motion is divided.
   int parts(std::span<const double> a, std::span<const double> b) const;
-  // Greatest way of a point of a link [m].
-  double swept(std::span<const double> a, std::span<const double> b) const;
-  bool is_part_valid(std::span<const double> a, std::span<const double> b, double from, double to, double swept);
+  // Put into `swept_` how far things move in a motion.
+  void find_swept(std::span<const double> a, std::span<const double> b);
+  bool is_part_valid(std::span<const double> a, std::span<const double> b, double from, double to);
 
   CollisionWorld& world_;
   GroupTask task_;
   State full_, between_;
   Projection projection_;
-  std::vector<double> reach_;  // per variable: greatest motion of a point per unit [m]
+  std::vector<MotionBounds> reach_;  // per unit of each variable
+  MotionBounds swept_;
+  double greatest_ = 0.0;  // of `swept_`
   std::vector<Rigid> poses_;
 };
 
