@@ -56,7 +56,7 @@ Vec3 sample_point(const ConvexShape& region, Random& random) {
     }
     case ShapeKind::kPlane: return {};
     default: {
-      Vec3 point = region.center;
+      Vec3 point = region.support({random.gaussian(), random.gaussian(), random.gaussian()});
       for (int i = 0; i < 3; ++i) {
         const Vec3 corner = region.support({random.gaussian(), random.gaussian(), random.gaussian()});
         point = point + random.uniform() * (corner - point);

@@ -48,6 +48,20 @@ void euler_rates(const Vec3& angles, std::array<Vec3, 3>& rows) {
   rows[0] = {1.0, sa * tb, -ca * tb};
 }
 
+// The same for rotation vectors: the inverse of the left Jacobian of SO(3).
+void vector_rates(const Vec3& v, std::array<Vec3, 3>& rows) {
+  const double square = dot(v, v), angle = std::sqrt(square);
+  const double sine = std::sin(angle);
+  const double c = angle < 1e-4 || std::abs(sine) < 1e-9
+                       ? 1.0 / 12.0
+                       : 1.0 / square - (1.0 + std::cos(angle)) / (2.0 * angle * sine);
+  // 1 - [v]/2 + c [v]², with [v]² = v vᵀ - |v|².
+  const double d = 1.0 - c * square;
+  rows[0] = {d + c * v.x * v.x, c * v.x * v.y + 0.5 * v.z, c * v.x * v.z - 0.5 * v.y};
+  rows[1] = {c * v.x * v.y - 0.5 * v.z, d + c * v.y * v.y, c * v.y * v.z + 0.5 * v.x};
+  rows[2] = {c * v.x * v.z + 0.5 * v.y, c * v.y * v.z - 0.5 * v.x, d + c * v.z * v.z};
+}
+
 Vec3 angle_errors(const PoseConstraint& constraint, const Rotation& target_from_link) {
   return constraint.orientation == OrientationError::kEuler ? angles_within(target_from_link, constraint.tolerance)
                                                             : rotation_vector(target_from_link);
@@ -113,7 +127,7 @@ Vec3 nearest_point(const ConvexShape& region, const Vec3& point) {
     default: break;
   }
   // Frank and Wolfe's steps towards the corners that are highest along what is missing.
-  Vec3 best = region.center;
+  Vec3 best = region.support(point - region.center);
   for (int turn = 0; turn < kNearestTurns; ++turn) {
     const Vec3 missing = point - best;
     const Vec3 step = region.support(missing) - best;
@@ -142,11 +156,12 @@ void measure(const PoseConstraint& constraint, const LinkTree& tree, const std::
     row = 3;
   }
   const Rotation frame_from_target = constraint.target;
-  std::array<Vec3, 3> rates{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+  std::array<Vec3, 3> rates;
   if (has_orientation) {
     const Rotation target_from_link = transpose(frame.r * frame_from_target) * link.r;
     const Vec3 angles = angle_errors(constraint, target_from_link);
     if (constraint.orientation == OrientationError::kEuler) euler_rates(angles, rates);
+    else vector_rates(angles, rates);
     for (int i = 0; i < 3; ++i)
       out.residuals[row + static_cast<std::size_t>(i)] = beyond(angles[i], constraint.tolerance[i]);
   }
