@@ -20,10 +20,9 @@ from trundle.spatial import Pose, Vector3, conjugate, quaternion_product, rpy_fr
 from .scene import Frames, mesh_of, pose_of, primitive_of
 
 if TYPE_CHECKING:
+    from trundle.planning.kinematics import Kinematics
     from trundle.planning.robot_model import RobotModel
     from trundle.ros import Message
-
-    from .context import Context
 
 _AXES: tuple[Any, ...] = ("z", "y", "x")
 """Values of VisibilityConstraint.sensor_view_direction."""
@@ -122,31 +121,33 @@ def _visibility(message: "Message", model: "RobotModel", frames: Frames) -> Visi
     )
 
 
-def constraint_check(context: "Context", message: "Message", frames: Frames) -> Callable[[np.ndarray], bool]:
+def constraint_check(kinematics: "Kinematics", message: "Message", frames: Frames) -> Callable[[np.ndarray], bool]:
     """Return a function that is True for states that satisfy moveit_msgs/Constraints.
 
     Raises:
         ValueError: numbers that are not finite.
         FrameError: a frame is unknown.
     """
-    constraints = constraints_of(message, context.monitor.model, frames)
+    constraints = constraints_of(message, kinematics.model, frames)
     if constraints.is_empty:
         return lambda _: True
-    return lambda positions: all(is_met for is_met, _ in _results(context, constraints, positions))
+    return lambda positions: all(is_met for is_met, _ in _results(kinematics, constraints, positions))
 
 
-def evaluate(context: "Context", message: "Message", frames: Frames, positions: np.ndarray) -> list[tuple[bool, float]]:
+def evaluate(
+    kinematics: "Kinematics", message: "Message", frames: Frames, positions: np.ndarray
+) -> list[tuple[bool, float]]:
     """Return for each joint, position and orientation constraint whether a state satisfies it, and how far it is off.
 
     Raises:
         ValueError: numbers that are not finite.
         FrameError: a frame is unknown.
     """
-    return _results(context, constraints_of(message, context.monitor.model, frames), positions)
+    return _results(kinematics, constraints_of(message, kinematics.model, frames), positions)
 
 
-def _results(context: "Context", constraints: Constraints, positions: np.ndarray) -> list[tuple[bool, float]]:
-    model, kinematics = context.monitor.model, context.monitor.kinematics
+def _results(kinematics: "Kinematics", constraints: Constraints, positions: np.ndarray) -> list[tuple[bool, float]]:
+    model = kinematics.model
     results: list[tuple[bool, float]] = []
     for joint in constraints.joints:
         difference = float(positions[model.variable_index(joint.variable)]) - joint.position

@@ -8,14 +8,15 @@ from msgspec import Struct
 from trundle.ros import Node
 
 from .controllers import JointPath, path_message
+from .pipelines import Pipelines
+from .plan_outcome import PlanOutcome
 from .planning_scene_monitor import PlanningSceneMonitor
 from .robot_description import RobotDescription
-from .scene import SceneContents, is_empty_state, positions_of, state_fields
+from .scene import SceneContents, state_fields
 
 if TYPE_CHECKING:
     from trundle.ros import Message, Publisher
 
-    from .pipelines import Pipelines
     from .trajectory_execution import TrajectoryExecution
 
 
@@ -25,22 +26,18 @@ class Context(Struct, frozen=True, eq=False, kw_only=True):
     node: Node
     description: RobotDescription
     monitor: PlanningSceneMonitor
-    pipelines: "Pipelines"
+    pipelines: Pipelines
     execution: "TrajectoryExecution | None"
     """None: ~allow_trajectory_execution is false."""
     display: "Publisher"
     """moveit_msgs/DisplayTrajectory of each plan."""
 
-    async def start_positions(self, state: "Message") -> np.ndarray:
-        """Return the state that a moveit_msgs/RobotState means, over the present one.
-
-        Raises:
-            ValueError: the state is invalid.
-        """
-        monitor = self.monitor
-        if is_empty_state(state) or state.is_diff:
-            await monitor.state.wait_since(self.node.clock.now_ns())
-        return positions_of(monitor.model, state, monitor.positions())
+    async def plan(self, request: "Message", contents: SceneContents, *, from_present: bool = False) -> PlanOutcome:
+        """Answer a moveit_msgs/MotionPlanRequest in a scene, and show the plan; see `Pipelines.plan`."""
+        outcome = await self.pipelines.plan(self.monitor, request, contents, from_present=from_present)
+        if outcome.is_success and outcome.path is not None:
+            self.show(outcome.path, outcome.start, contents)
+        return outcome
 
     def show(self, path: JointPath, start: np.ndarray, contents: SceneContents) -> None:
         """Publish a plan for displays."""

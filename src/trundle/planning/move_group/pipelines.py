@@ -30,13 +30,12 @@ from trundle.spatial import Pose
 from .constraint_messages import constraints_of
 from .controllers import JointPath
 from .plan_outcome import PlanOutcome
+from .planning_scene_monitor import PlanningSceneMonitor
 from .robot_description import RobotDescription
-from .scene import FrameError, SceneContents, SceneMirror
+from .scene import FrameError, SceneChanges, SceneContents, SceneMirror
 
 if TYPE_CHECKING:
     from trundle.ros import Message
-
-    from .context import Context
 
 _PILZ = "pilz_industrial_motion_planner"
 _PILZ_PLANNERS = ("PTP", "LIN", "CIRC")
@@ -233,21 +232,21 @@ class Pipelines:
     # -- plans
 
     async def plan(
-        self, context: "Context", request: "Message", contents: SceneContents, *, from_present: bool = False
+        self, monitor: PlanningSceneMonitor, request: "Message", contents: SceneContents, *, from_present: bool = False
     ) -> PlanOutcome:
         """Answer a moveit_msgs/MotionPlanRequest in a scene; `from_present`: its start state is not asked."""
         began = time.monotonic()
-        positions = context.monitor.positions()
+        positions = monitor.positions()
         name = str(request.group_name)
         pipeline = self.find(str(request.pipeline_id))
         if pipeline is None:
             return PlanOutcome(code=ErrorCode.FAILURE, start=positions, group=name, sentence="no such pipeline")
         try:
-            start = positions if from_present else await context.start_positions(request.start_state)
-            frames = context.monitor.frames(start, contents)
+            start = positions if from_present else await monitor.start_positions(request.start_state)
+            frames = monitor.frames(start, contents)
             goals = tuple(constraints_of(goal, self.model, frames) for goal in request.goal_constraints)
             path_constraints = constraints_of(request.path_constraints, self.model, frames)
-            contents = self._with_attached(context, contents, request.start_state, from_present)
+            contents = self._with_attached(monitor, contents, request.start_state, from_present)
         except FrameError as error:
             return self._failed(
                 PlanOutcome(code=ErrorCode.FRAME_TRANSFORM_FAILURE, start=positions, sentence=str(error))
@@ -287,20 +286,16 @@ class Pipelines:
             planning_time_s=time.monotonic() - began,
             sentence=outcome.sentence,
         )
-        if outcome.is_success and outcome.path is not None:
-            context.show(outcome.path, outcome.start, contents)
         return self._failed(outcome)
 
     def _with_attached(
-        self, context: "Context", contents: SceneContents, state: "Message", from_present: bool
+        self, monitor: PlanningSceneMonitor, contents: SceneContents, state: "Message", from_present: bool
     ) -> SceneContents:
         """Return contents with what the start state carries."""
         if from_present or not len(state.attached_collision_objects):
             return contents
-        from .scene import SceneChanges
-
         changed = contents.copy()
-        changes = SceneChanges(changed, context.monitor.frames(contents=changed), self.model.has_link)
+        changes = SceneChanges(changed, monitor.frames(contents=changed), self.model.has_link)
         changes.apply_state_objects(state, is_diff=bool(state.is_diff))
         return changed
 
@@ -427,14 +422,14 @@ class Pipelines:
 
     async def is_path_valid(
         self,
-        context: "Context",
+        monitor: PlanningSceneMonitor,
         path: JointPath,
         start: np.ndarray,
         group: str,
         allowed: AllowedCollisionMatrix | None = None,
     ) -> bool:
         """True if no state of a path is in collision in the present scene; `allowed` replaces its matrix."""
-        contents = context.monitor.contents
+        contents = monitor.contents
         if allowed is not None:
             contents = contents.copy()
             contents.allowed = allowed

@@ -88,7 +88,7 @@ async def execute_watched(
                 continue
             changes = context.monitor.changes
             rest = _rest(path, (clock.now_ns() - start_ns) / 1e9)
-            if not await context.pipelines.is_path_valid(context, rest, outcome.start, outcome.group, allowed):
+            if not await context.pipelines.is_path_valid(context.monitor, rest, outcome.start, outcome.group, allowed):
                 context.node.log.info(
                     "Stopping execution because the path to execute became invalid(probably the environment changed)"
                 )

@@ -13,7 +13,15 @@ from trundle.ros import Node, TransformBuffer
 
 from .current_state_monitor import CurrentStateMonitor
 from .robot_description import RobotDescription
-from .scene import Frames, SceneChanges, SceneContents, diff_fields, scene_fields
+from .scene import (
+    Frames,
+    SceneChanges,
+    SceneContents,
+    diff_fields,
+    is_empty_state,
+    positions_of,
+    scene_fields,
+)
 
 if TYPE_CHECKING:
     from trundle.planning.kinematics import Kinematics
@@ -85,6 +93,16 @@ class PlanningSceneMonitor:
     def positions(self) -> np.ndarray:
         """Return the present state vector."""
         return self.state.positions()
+
+    async def start_positions(self, state: "Message") -> np.ndarray:
+        """Return the state that a moveit_msgs/RobotState means, over the present one.
+
+        Raises:
+            ValueError: the state is invalid.
+        """
+        if is_empty_state(state) or state.is_diff:
+            await self.state.wait_since(self._node.clock.now_ns())
+        return positions_of(self.model, state, self.positions())
 
     def frames(self, positions: np.ndarray | None = None, contents: SceneContents | None = None) -> Frames:
         """Return the frames at a state and scene, by default the present ones."""

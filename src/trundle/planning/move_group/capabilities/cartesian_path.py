@@ -62,7 +62,7 @@ async def _follow(context: "Context", request: "Message") -> dict[str, Any]:
     link = str(request.link_name) or (group.links[-1] if group.links else "")
     if not model.has_link(link):
         return _refused(context, ErrorCode.INVALID_LINK_NAME, f"Unknown frame: {link}")
-    start = await context.start_positions(request.start_state)
+    start = await context.monitor.start_positions(request.start_state)
     frames = monitor.frames(start)
     header = str(request.header.frame_id).lstrip("/")
     base = frames.link(link) if header == link else frames.find(header)

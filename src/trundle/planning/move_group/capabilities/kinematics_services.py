@@ -52,10 +52,10 @@ async def _solve(context: "Context", request: "Message") -> tuple[ErrorCode, np.
     if len(targets) > 1 and len(links) != len(targets):
         return ErrorCode.INVALID_LINK_NAME, None
     try:
-        start = await context.start_positions(request.robot_state)
+        start = await context.monitor.start_positions(request.robot_state)
         frames = monitor.frames(start)
         poses = [frames.find(str(one.header.frame_id)) @ pose_of(one.pose) for one in targets]
-        is_satisfied = constraint_check(context, request.constraints, frames)
+        is_satisfied = constraint_check(monitor.kinematics, request.constraints, frames)
     except ValueError as error:
         context.node.log.error(f"compute_ik: {error}")
         return ErrorCode.INVALID_ROBOT_STATE, None
@@ -87,7 +87,7 @@ async def _link_poses(context: "Context", request: "Message") -> dict[str, Any]:
     known = [name for name in names if monitor.model.has_link(name)]
     frame = str(request.header.frame_id).lstrip("/") or monitor.model.model_frame
     try:
-        positions = await context.start_positions(request.robot_state)
+        positions = await context.monitor.start_positions(request.robot_state)
         frames = monitor.frames(positions)
         frame_from_model: Pose = frames.find(frame).inverse()
     except ValueError as error:

@@ -47,7 +47,7 @@ def offer_move_action(context: "Context") -> None:
         if plan_only:
             node.log.info("Planning request received for MoveGroup action. Forwarding to planning pipeline.")
             contents = context.monitor.contents if changed is None else changed
-            outcome = await context.pipelines.plan(context, goal.request, contents)
+            outcome = await context.plan(goal.request, contents)
         else:
             node.log.info(
                 "Combined planning and execution request received for MoveGroup action. Forwarding to planning and "
@@ -93,7 +93,7 @@ async def _plan_and_execute(
     async def plan() -> PlanOutcome:
         report("PLANNING")
         contents = context.monitor.contents if changed is None else changed
-        return await context.pipelines.plan(context, goal.request, contents, from_present=starts_elsewhere)
+        return await context.plan(goal.request, contents, from_present=starts_elsewhere)
 
     return await plan_and_execute(
         context,

@@ -19,7 +19,7 @@ def offer_plan_service(context: "Context") -> None:
         context.node.log.info("Received new planning service request...")
         wanted = request.motion_plan_request
         contents = context.monitor.contents
-        outcome = await context.pipelines.plan(context, wanted, contents)
+        outcome = await context.plan(wanted, contents)
         return {"motion_plan_response": plan_response(context, outcome)}
 
     context.node.advertise_service("plan_kinematic_path", "moveit_msgs/GetMotionPlan", answer)

@@ -69,7 +69,7 @@ async def _plan(context: "Context", request: "Message") -> tuple[ErrorCode, list
         if positions is not None:
             state = context.state_fields(positions)
             wanted.start_state = context.node.new("moveit_msgs/RobotState", state)
-        outcome = await context.pipelines.plan(context, wanted, context.monitor.contents)
+        outcome = await context.plan(wanted, context.monitor.contents)
         if not outcome.is_success or outcome.path is None:
             context.node.log.error(f"item {index} of the sequence: {outcome.sentence}")
             return outcome.code, [], time.monotonic() - began

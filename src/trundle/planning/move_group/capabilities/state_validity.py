@@ -22,9 +22,9 @@ def offer_state_validity(context: "Context") -> None:
 
     async def answer(request: "Message") -> dict[str, Any]:
         try:
-            positions = await context.start_positions(request.robot_state)
+            positions = await context.monitor.start_positions(request.robot_state)
             frames = context.monitor.frames(positions)
-            results = evaluate(context, request.constraints, frames, positions)
+            results = evaluate(context.monitor.kinematics, request.constraints, frames, positions)
         except (ValueError, TrundleError) as error:
             context.node.log.error(f"check_state_validity: {error}")
             return {"valid": False}
