@@ -194,6 +194,7 @@ export class MotionPlanningDisplay extends PlanningSceneDisplay {
       rootPose: () => this.currentRoot,
       look: { ...look, colliding, violation, markerSize },
       onDrag,
+      onRelease: () => checks.release(),
     });
     return { view, checks };
   }

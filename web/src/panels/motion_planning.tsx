@@ -111,7 +111,7 @@ function Status({ page, state, display }: TabProps): JSX.Element {
   const faults = [display.startQuery, display.goalQuery].map(({ name, fault, colliding }) => {
     const touching =
       colliding.value.size === 0 ? "" : `The ${name} is in collision: ${[...colliding.value].join(", ")}.`;
-    return fault.value || touching;
+    return [fault.value, touching].filter((text) => text !== "").join(" ");
   });
   const fault = faults.filter((text) => text !== "").join(" ");
   const task = state.task.value;

@@ -24,6 +24,7 @@ export interface PoseRequest {
 export class QueryChecks {
   private readonly poses = new LatestRequest(() => undefined);
   private readonly states = new LatestRequest(() => undefined);
+  private isHeld = false;
   private pending: { readonly service: string; seconds: number } | null = null;
 
   constructor(
@@ -36,7 +37,14 @@ export class QueryChecks {
 
   /** Move the query to joints that put a tip at a pose in the model's frame; of waiting poses only the newest counts. */
   reach(request: PoseRequest): void {
+    this.isHeld = true;
     this.poses.send(() => this.askPose(request));
+  }
+
+  /** The person lets go: the tip is where the arm is again. */
+  release(): void {
+    this.isHeld = false;
+    this.query.isUnreachable.value = false;
   }
 
   /** Find what touches in the query's state. */
@@ -69,7 +77,7 @@ export class QueryChecks {
       query.set(ofGroup(group, answer["solution"] as unknown as RobotState));
       query.fault.value = "";
     } else {
-      query.isUnreachable.value = true;
+      query.isUnreachable.value = this.isHeld;
       const avoiding = avoidCollisions ? " without a collision" : "";
       query.fault.value = code === -31 ? `No configuration of ${group.name} reaches there${avoiding}.` : words(code);
     }
@@ -93,7 +101,9 @@ export class QueryChecks {
     const pending = { service, seconds: 0 };
     this.pending = pending;
     try {
-      return await this.connection.callService(service, request);
+      const answer = await this.connection.callService(service, request);
+      if (this.query.fault.peek().startsWith(`${service}: `)) this.query.fault.value = "";
+      return answer;
     } catch (error) {
       this.query.fault.value = `${service}: ${error instanceof Error ? error.message : String(error)}`;
       return null;

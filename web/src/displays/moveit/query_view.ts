@@ -32,6 +32,7 @@ export interface QueryViewParts {
   readonly look: QueryLook;
   /** A person drags a tip to a pose in the model's frame. */
   readonly onDrag: (tip: string, pose: Pose) => void;
+  readonly onRelease: () => void;
 }
 
 export class QueryView {
@@ -142,7 +143,10 @@ export class QueryView {
     const marker = new LocalMarker({
       ...{ context, root, anchor, frame, name, pose, size, color },
       onDrag: (dragged) => onDrag(tip, dragged),
-      onRelease: () => this.placeMarkers(),
+      onRelease: () => {
+        this.parts.onRelease();
+        this.placeMarkers();
+      },
     });
     marker.tint(this.bad);
     this.markers.set(tip, marker);

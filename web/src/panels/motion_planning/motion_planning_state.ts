@@ -10,7 +10,7 @@ import { moveGroupNamespaces } from "../../page/arms";
 import type { Page } from "../../page/page";
 import type { PlannerInterfaceDescription, RobotTrajectory } from "../../protocol/generated/ros_messages";
 import { seconds, type RosMessage } from "../../protocol/ros_types";
-import { fixed } from "../../theme/format";
+import { count, fixed } from "../../theme/format";
 import { perPage } from "../per_page";
 import { sentence } from "../use";
 import { ActionClient } from "./action_client";
@@ -202,5 +202,5 @@ function codeOf(result: RosMessage): number {
 function described(trajectory: RobotTrajectory | null): string {
   const points = trajectory?.joint_trajectory.points ?? [];
   const last = points.at(-1);
-  return `${points.length} points, ${fixed(last === undefined ? 0 : seconds(last.time_from_start), 1)} s`;
+  return `${count(points.length, "point")}, ${fixed(last === undefined ? 0 : seconds(last.time_from_start), 1)} s`;
 }
