@@ -20,7 +20,6 @@ namespace trundle::planning {
 namespace {
 
 using namespace nb::literals;
-using Shape = std::shared_ptr<ConvexShape>;
 using Flags = nb::ndarray<const bool, nb::numpy, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
 constexpr double kMaxSeconds = 86400.0;
@@ -30,7 +29,7 @@ struct CancelFlag {
   std::shared_ptr<std::atomic<bool>> flag = std::make_shared<std::atomic<bool>>(false);
 };
 
-PoseConstraint pose_constraint(int link, int frame, const Numbers& offset, const std::vector<Shape>& regions,
+PoseConstraint pose_constraint(int link, int frame, const Numbers& offset, const std::vector<CollisionShape>& regions,
                                const Rows<7>& region_poses, int orientation, const Numbers& target,
                                const Numbers& tolerance) {
   PoseConstraint constraint;
@@ -39,7 +38,8 @@ PoseConstraint pose_constraint(int link, int frame, const Numbers& offset, const
   constraint.offset = vector_of(offset);
   const std::vector<Rigid> poses = poses_of(region_poses);
   if (poses.size() != regions.size()) throw nb::value_error("each region has a pose");
-  for (std::size_t i = 0; i < regions.size(); ++i) constraint.regions.push_back({regions[i], poses[i]});
+  for (std::size_t i = 0; i < regions.size(); ++i)
+    for (const auto& part : regions[i].parts) constraint.regions.push_back({part, poses[i]});
   constraint.orientation = static_cast<OrientationError>(std::clamp(orientation, 0, 2));
   const std::span<const double> q = span_of(target, 4);
   constraint.target = rotation_of(q[0], q[1], q[2], q[3]);

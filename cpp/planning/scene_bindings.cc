@@ -6,6 +6,7 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -22,7 +23,6 @@ namespace trundle::planning {
 namespace {
 
 using namespace nb::literals;
-using Shape = std::shared_ptr<ConvexShape>;
 using Mask = nb::ndarray<const bool, nb::numpy, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Faces = nb::ndarray<const std::int32_t, nb::numpy, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 using Triple = std::tuple<double, double, double>;
@@ -32,27 +32,47 @@ double length_of(double value) {
   return value;
 }
 
-Shape box(double x, double y, double z) {
-  return std::make_shared<ConvexShape>(
-      make_primitive(ShapeKind::kBox, {0.5 * length_of(x), 0.5 * length_of(y), 0.5 * length_of(z)}));
+CollisionShape single(ConvexShape shape) { return {{std::make_shared<ConvexShape>(std::move(shape))}}; }
+
+ConvexShape box(double x, double y, double z) {
+  return make_primitive(ShapeKind::kBox, {0.5 * length_of(x), 0.5 * length_of(y), 0.5 * length_of(z)});
 }
 
-Shape sphere(double radius) {
-  return std::make_shared<ConvexShape>(make_primitive(ShapeKind::kSphere, {length_of(radius), 0.0, 0.0}));
+CollisionShape box_shape(double x, double y, double z) { return single(box(x, y, z)); }
+
+CollisionShape sphere_shape(double radius) {
+  return single(make_primitive(ShapeKind::kSphere, {length_of(radius), 0.0, 0.0}));
 }
 
-Shape cylinder(double radius, double length) {
-  return std::make_shared<ConvexShape>(
-      make_primitive(ShapeKind::kCylinder, {length_of(radius), 0.5 * length_of(length), 0.0}));
+CollisionShape cylinder_shape(double radius, double length) {
+  return single(make_primitive(ShapeKind::kCylinder, {length_of(radius), 0.5 * length_of(length), 0.0}));
 }
 
-Shape plane() { return std::make_shared<ConvexShape>(make_primitive(ShapeKind::kPlane, {})); }
+CollisionShape plane_shape() { return single(make_primitive(ShapeKind::kPlane, {})); }
 
-Shape hull(const Rows<3>& corners) {
+CollisionShape hull_shape(const Rows<3>& corners) {
   const std::vector<double> numbers(corners.data(), corners.data() + corners.size());
   for (const double number : numbers)
     if (!(std::abs(number) < 1e6)) throw nb::value_error("a corner has finite numbers");
-  return std::make_shared<ConvexShape>(make_hull(numbers));
+  return single(make_hull(numbers));
+}
+
+CollisionShape surface_shape(const Rows<3>& vertices, const Faces& faces) {
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    if (!(std::abs(vertices.data()[i]) < 1e6)) throw nb::value_error("a vertex has finite numbers");
+  CollisionShape surface;
+  surface.parts.reserve(faces.shape(0));
+  std::vector<double> corners(9);
+  for (std::size_t i = 0; i < faces.shape(0); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t vertex = faces(i, k);
+      if (vertex < 0 || static_cast<std::size_t>(vertex) >= vertices.shape(0))
+        throw nb::value_error("a face names a vertex that there is not");
+      std::copy_n(vertices.data() + 3 * vertex, 3, corners.data() + 3 * k);
+    }
+    surface.parts.push_back(std::make_shared<ConvexShape>(make_hull(corners)));
+  }
+  return surface;
 }
 
 NarrowPhase narrow_phase(std::uintptr_t model, std::uintptr_t data) {
@@ -74,13 +94,17 @@ class MaskOf {
   LinkMask mask_;
 };
 
-void set_body(SharedWorld& shared, int number, int link, double padding, const std::vector<Shape>& shapes,
-              const Rows<7>& rows) {
-  const std::vector<Rigid> poses = poses_of(rows);
-  if (poses.size() != shapes.size()) throw nb::value_error("each shape has a pose");
+// The frame's pose is in the link's or the model frame, the shapes' poses are in the frame.
+void set_body(SharedWorld& shared, int number, int link, double padding, const std::vector<CollisionShape>& shapes,
+              const Rows<7>& rows, const Rows<7>& frame) {
+  const std::vector<Rigid> poses = poses_of(rows), frames = poses_of(frame);
+  if (poses.size() != shapes.size() || frames.size() != 1) throw nb::value_error("each shape has a pose");
   if (link >= static_cast<int>(shared.world.tree().size())) throw nb::value_error("no such link");
   Body body{link, padding, {}};
-  for (std::size_t i = 0; i < shapes.size(); ++i) body.pieces.push_back({shapes[i], poses[i]});
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const Rigid pose = frames[0] * poses[i];
+    for (const auto& part : shapes[i].parts) body.pieces.push_back({part, pose});
+  }
   const nb::gil_scoped_release unlocked;
   const std::scoped_lock lock(shared.mutex);
   shared.world.set_body(number, std::move(body));
@@ -91,11 +115,11 @@ void set_voxels(SharedWorld& shared, int number, double padding, const Rows<3>& 
                 const Rows<7>& frame) {
   const std::vector<Rigid> poses = poses_of(frame);
   if (sizes.size() != centers.shape(0) || poses.size() != 1) throw nb::value_error("each voxel has a size");
-  std::map<double, Shape> cubes;
+  std::map<double, std::shared_ptr<const ConvexShape>> cubes;
   Body body{-1, padding, {}};
   for (std::size_t i = 0; i < sizes.size(); ++i) {
-    Shape& cube = cubes[sizes.data()[i]];
-    if (!cube) cube = box(sizes.data()[i], sizes.data()[i], sizes.data()[i]);
+    auto& cube = cubes[sizes.data()[i]];
+    if (!cube) cube = std::make_shared<ConvexShape>(box(sizes.data()[i], sizes.data()[i], sizes.data()[i]));
     for (std::size_t k = 0; k < 3; ++k)
       if (!(std::abs(centers(i, k)) < 1e6)) throw nb::value_error("a voxel's center has finite numbers");
     body.pieces.push_back({cube, {poses[0].r, poses[0] * Vec3{centers(i, 0), centers(i, 1), centers(i, 2)}}});
@@ -103,26 +127,6 @@ void set_voxels(SharedWorld& shared, int number, double padding, const Rows<3>& 
   const nb::gil_scoped_release unlocked;
   const std::scoped_lock lock(shared.mutex);
   shared.world.set_body(number, std::move(body));
-}
-
-// Triangles of a surface, in a frame.
-std::vector<Shape> triangles(const Rows<3>& vertices, const Faces& faces) {
-  std::vector<Shape> shapes;
-  for (std::size_t i = 0; i < faces.shape(0); ++i) {
-    std::vector<double> corners;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::int32_t vertex = faces(i, k);
-      if (vertex < 0 || static_cast<std::size_t>(vertex) >= vertices.shape(0))
-        throw nb::value_error("a face names a vertex that there is not");
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double number = vertices(static_cast<std::size_t>(vertex), axis);
-        if (!(std::abs(number) < 1e6)) throw nb::value_error("a vertex has finite numbers");
-        corners.push_back(number);
-      }
-    }
-    shapes.push_back(std::make_shared<ConvexShape>(make_hull(corners)));
-  }
-  return shapes;
 }
 
 Triple triple(const Vec3& v) { return {v.x, v.y, v.z}; }
@@ -195,13 +199,15 @@ void bind_scene(nb::module_& module) {
   module.def(
       "bind_distance", [](std::uintptr_t address) { geom_distance = reinterpret_cast<GeomDistance>(address); },
       "address"_a);
-  nb::class_<ConvexShape>(module, "ConvexShape");
-  module.def("box_shape", box, "x"_a, "y"_a, "z"_a);
-  module.def("sphere_shape", sphere, "radius"_a);
-  module.def("cylinder_shape", cylinder, "radius"_a, "length"_a);
-  module.def("plane_shape", plane);
-  module.def("hull_shape", hull, "corners"_a);
-  module.def("triangle_shapes", triangles, "vertices"_a, "faces"_a);
+  nb::class_<CollisionShape>(module, "CollisionShape").def_prop_ro("size", [](const CollisionShape& self) {
+    return self.parts.size();
+  });
+  module.def("box_shape", box_shape, "x"_a, "y"_a, "z"_a);
+  module.def("sphere_shape", sphere_shape, "radius"_a);
+  module.def("cylinder_shape", cylinder_shape, "radius"_a, "length"_a);
+  module.def("plane_shape", plane_shape);
+  module.def("hull_shape", hull_shape, "corners"_a);
+  module.def("surface_shape", surface_shape, "vertices"_a, "faces"_a);
   nb::class_<SharedWorld>(module, "CollisionWorld")
       .def(
           "__init__",
@@ -211,7 +217,7 @@ void bind_scene(nb::module_& module) {
           },
           "kinematics"_a, "model"_a, "data"_a)
       .def("copy", copy, "model"_a, "data"_a)
-      .def("set_body", set_body, "number"_a, "link"_a, "padding"_a, "shapes"_a, "poses"_a)
+      .def("set_body", set_body, "number"_a, "link"_a, "padding"_a, "shapes"_a, "poses"_a, "frame"_a)
       .def("set_voxels", set_voxels, "number"_a, "padding"_a, "centers"_a, "sizes"_a, "frame"_a)
       .def(
           "remove_body",

@@ -3,8 +3,10 @@
 
 #include <nanobind/nanobind.h>
 
+#include <memory>
 #include <mutex>
 #include <span>
+#include <vector>
 
 #include "collision_world.h"
 #include "state_check.h"
@@ -18,6 +20,11 @@ struct SharedWorld {
   std::mutex mutex;
 
   SharedWorld(CollisionWorld that, std::size_t variable_count) : world(std::move(that)), variables(variable_count) {}
+};
+
+// What Python holds as a shape: one convex shape, or the triangles of a surface.
+struct CollisionShape {
+  std::vector<std::shared_ptr<const ConvexShape>> parts;
 };
 
 void bind_scene(nanobind::module_& module);

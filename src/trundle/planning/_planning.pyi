@@ -110,29 +110,33 @@ class GroupKinematics:
 def manipulability(jacobian: NDArray[float64]) -> tuple[float, float]:
     """Return the product of a Jacobian's singular values, and the ratio of the smallest to the largest one."""
 
-class ConvexShape:
-    """Box, sphere, cylinder, plane or convex hull."""
+class CollisionShape:
+    """Box, sphere, cylinder, plane, convex hull, or the triangles of a surface."""
+
+    @property
+    def size(self) -> int:
+        """Number of convex parts."""
 
 def bind_distance(address: int) -> None:
     """Bind mj_geomDistance of the MuJoCo library that Python has loaded."""
 
-def box_shape(x: float, y: float, z: float) -> ConvexShape:
+def box_shape(x: float, y: float, z: float) -> CollisionShape:
     """Return a box of full lengths [m]."""
 
-def sphere_shape(radius: float) -> ConvexShape:
+def sphere_shape(radius: float) -> CollisionShape:
     """Return a sphere [m]."""
 
-def cylinder_shape(radius: float, length: float) -> ConvexShape:
+def cylinder_shape(radius: float, length: float) -> CollisionShape:
     """Return a cylinder along z, centred [m]."""
 
-def plane_shape() -> ConvexShape:
+def plane_shape() -> CollisionShape:
     """Return the plane through the origin with normal z, thin and without end."""
 
-def hull_shape(corners: NDArray[float64]) -> ConvexShape:
+def hull_shape(corners: NDArray[float64]) -> CollisionShape:
     """Return the hull of corners (N, 3) [m], which should all be on it."""
 
-def triangle_shapes(vertices: NDArray[float64], faces: NDArray[int32]) -> list[ConvexShape]:
-    """Return a shape for each face (M, 3) of vertices (N, 3) [m]."""
+def surface_shape(vertices: NDArray[float64], faces: NDArray[int32]) -> CollisionShape:
+    """Return the triangles of faces (M, 3) of vertices (N, 3) [m]."""
 
 _ContactRow = tuple[int, int, float, tuple[float, float, float], tuple[float, float, float]]
 
@@ -146,7 +150,13 @@ class CollisionWorld:
         """Return a copy with a pair of its own."""
 
     def set_body(
-        self, number: int, link: int, padding: float, shapes: Sequence[ConvexShape], poses: NDArray[float64]
+        self,
+        number: int,
+        link: int,
+        padding: float,
+        shapes: Sequence[CollisionShape],
+        poses: NDArray[float64],
+        frame: NDArray[float64],
     ) -> None:
         """Set a body's pieces.
 
@@ -154,8 +164,9 @@ class CollisionWorld:
             number: body.
             link: link that carries it; -1: it is fixed in the model frame.
             padding: distance that others keep [m].
-            shapes: its pieces.
-            poses: (N, 7) in the link's or the model frame.
+            shapes: its shapes.
+            poses: (N, 7) of the shapes in the frame.
+            frame: (1, 7) in the link's or the model frame.
         """
 
     def set_voxels(
@@ -245,7 +256,7 @@ def pose_constraint(
     link: int,
     frame: int,
     offset: NDArray[float64],
-    regions: Sequence[ConvexShape],
+    regions: Sequence[CollisionShape],
     region_poses: NDArray[float64],
     orientation: int,
     target: NDArray[float64],

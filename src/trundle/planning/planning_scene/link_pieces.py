@@ -13,7 +13,7 @@ from trundle.robots.packages import Packages
 from trundle.robots.robot import RobotBox, RobotCylinder, RobotLink, RobotMesh, RobotShape, RobotSphere
 from trundle.sim.physics import MAX_CORNERS, hull_corners, moving_pieces
 
-from .._planning import ConvexShape, box_shape, cylinder_shape, hull_shape, sphere_shape
+from .._planning import CollisionShape, box_shape, cylinder_shape, hull_shape, sphere_shape
 from .pieces import Pieces, pose_row
 
 
@@ -28,7 +28,7 @@ class LinkShape(Struct, frozen=True, eq=False):
     middle: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """Mean of a mesh's vertices, about which it is scaled [m]."""
 
-    def pieces(self, scale: float) -> list[ConvexShape]:
+    def pieces(self, scale: float) -> list[CollisionShape]:
         """Return the shapes, scaled as MoveIt does: about the center of a primitive, about a mesh's mean vertex."""
         match self.geometry:
             case RobotBox(size):
@@ -56,7 +56,7 @@ class LinkGeometry:
         """Return the pieces of a link's shapes at a scale."""
         key = (link, scale)
         if key not in self._pieces:
-            shapes: list[ConvexShape] = []
+            shapes: list[CollisionShape] = []
             rows: list[tuple[float, ...]] = []
             for shape in self._links.get(link, []):
                 made = shape.pieces(scale)

@@ -14,18 +14,18 @@ from trundle.sim.physics import MAX_CORNERS, convex_parts, hull_corners, moving_
 from trundle.spatial import Pose, rotation_from_z
 
 from .._planning import (
-    ConvexShape,
+    CollisionShape,
     box_shape,
     cylinder_shape,
     hull_shape,
     plane_shape,
     sphere_shape,
-    triangle_shapes,
+    surface_shape,
 )
 from .objects import PlacedShape, ShapeGeometry
 
 MAX_TRIANGLES = 200_000
-"""Maximum number of triangles of a mesh that is not convex, and of all such meshes of an object."""
+"""Maximum number of triangles of a mesh."""
 _MAX_CARRIED = 256
 """Maximum number of triangles of a mesh that moves and is checked by them."""
 _CONE_SIDES = 32
@@ -36,7 +36,7 @@ _MAX_LENGTH = 1e5
 class Pieces(Struct, frozen=True, eq=False):
     """Convex shapes and their poses in the frame of their owner."""
 
-    shapes: list[ConvexShape]
+    shapes: list[CollisionShape]
     poses: NDArray[np.float64]
     """(N, 7) x y z [m], qx qy qz qw."""
 
@@ -70,7 +70,7 @@ def pieces_of(shapes: Sequence[PlacedShape], owner: str, *, moves: bool) -> Piec
     Raises:
         UsageError: numbers that are no lengths, or a mesh with too many triangles.
     """
-    made: list[ConvexShape] = []
+    made: list[CollisionShape] = []
     rows: list[tuple[float, ...]] = []
     for shape in shapes:
         pose = shape.pose
@@ -79,12 +79,12 @@ def pieces_of(shapes: Sequence[PlacedShape], owner: str, *, moves: bool) -> Piec
         pieces = _shapes_of(shape.geometry, owner, moves)
         made += pieces
         rows += [pose_row(pose)] * len(pieces)
-        if len(made) > 2 * MAX_TRIANGLES:
+        if sum(piece.size for piece in made) > 2 * MAX_TRIANGLES:
             raise UsageError(f"{owner!r} has more than {2 * MAX_TRIANGLES} pieces")
     return Pieces(made, np.array(rows, dtype=np.float64).reshape(-1, 7))
 
 
-def _shapes_of(geometry: ShapeGeometry, owner: str, moves: bool) -> list[ConvexShape]:
+def _shapes_of(geometry: ShapeGeometry, owner: str, moves: bool) -> list[CollisionShape]:
     match geometry:
         case Box(size):
             return [box_shape(*_lengths(size, owner, "a box"))]
@@ -108,14 +108,14 @@ def _lengths(lengths: Sequence[float], owner: str, kind: str) -> list[float]:
     return list(lengths)
 
 
-def _cone(radius: float, length: float) -> ConvexShape:
+def _cone(radius: float, length: float) -> CollisionShape:
     turns = np.linspace(0.0, 2 * np.pi, _CONE_SIDES, endpoint=False)
     outer = radius / np.cos(np.pi / _CONE_SIDES)  # the pyramid contains the cone
     base = np.column_stack([outer * np.cos(turns), outer * np.sin(turns), np.full(_CONE_SIDES, -length / 2)])
     return hull_shape(np.vstack([base, [0.0, 0.0, length / 2]]))
 
 
-def _mesh_shapes(mesh: Mesh, owner: str, moves: bool) -> list[ConvexShape]:
+def _mesh_shapes(mesh: Mesh, owner: str, moves: bool) -> list[CollisionShape]:
     try:
         check_vertices(mesh.vertices)
     except MeshError as error:
@@ -142,15 +142,16 @@ class _MeshKey:
 
 
 @lru_cache(maxsize=64)
-def _cached_mesh_shapes(key: _MeshKey, owner: str, moves: bool) -> tuple[ConvexShape, ...]:
+def _cached_mesh_shapes(key: _MeshKey, owner: str, moves: bool) -> tuple[CollisionShape, ...]:
     vertices, faces = key.mesh.vertices.astype(np.float64), key.mesh.faces
+    if len(faces) > MAX_TRIANGLES:
+        raise UsageError(
+            f"{owner!r}: a mesh of {len(faces)} triangles; at most {MAX_TRIANGLES} are checked: simplify it"
+        )
     parts = convex_parts(vertices, faces.astype(np.intp))
     if parts is not None:
         return tuple(hull_shape(hull_corners(corners, MAX_CORNERS)) for corners in parts)
     if not moves or len(faces) <= _MAX_CARRIED:
-        if len(faces) > MAX_TRIANGLES:
-            size = f"a mesh of {len(faces)} triangles that is not convex"
-            raise UsageError(f"{owner!r}: {size}; at most {MAX_TRIANGLES} are checked: simplify it")
-        return tuple(triangle_shapes(vertices, np.ascontiguousarray(faces, dtype=np.int32)))
+        return (surface_shape(vertices, np.ascontiguousarray(faces, dtype=np.int32)),)
     (pieces,) = moving_pieces([(vertices, faces.astype(np.intp))])
     return tuple(hull_shape(hull_corners(corners, MAX_CORNERS)) for corners in pieces)

@@ -11,7 +11,7 @@ from trundle.base.built import refuse_stale
 from trundle.base.diagnostics import Diagnostics, UsageError, no_such
 from trundle.robots.packages import Packages
 from trundle.sim.physics import ShapePair, mujoco_addresses
-from trundle.spatial import Pose, compose_rows
+from trundle.spatial import Pose
 
 from .. import _planning
 from ..kinematics import Kinematics
@@ -30,8 +30,7 @@ MAX_VOXELS = 500_000
 _MAX_PADDING = 10.0
 """[m]"""
 _NO_MASK = np.zeros(0, dtype=np.bool_)
-_W_FIRST = [0, 1, 2, 6, 3, 4, 5]
-_W_LAST = [0, 1, 2, 4, 5, 6, 3]
+_NO_FRAME = np.array([[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]])
 
 refuse_stale(_planning)
 _planning.bind_distance(*mujoco_addresses(["mj_geomDistance"]))
@@ -122,8 +121,8 @@ class PlanningScene:
             raise UsageError(f"{owner} is called {object.name!r}; an object needs another name")
         if len(self._objects) >= MAX_OBJECTS and object.name not in self._objects:
             raise UsageError(f"a scene has at most {MAX_OBJECTS} objects; {object.name!r} is one more")
-        pieces = _in_frame(object.pose, pieces_of(object.shapes, object.name, moves=False))
-        self._set_body(object.name, -1, 0.0, pieces)
+        pieces = pieces_of(object.shapes, object.name, moves=False)
+        self._set_body(object.name, -1, 0.0, pieces, object.pose)
         self._objects[object.name] = object
 
     def remove(self, name: str) -> CollisionObject:
@@ -161,12 +160,14 @@ class PlanningScene:
             raise UsageError(no_such("no link", attached.link, self.model.links))
         if name in self._link_number or name == OCTOMAP:
             raise UsageError(f"a part of the robot or scene is called {name!r}; an object needs another name")
-        pieces = _in_frame(attached.object.pose, pieces_of(attached.object.shapes, name, moves=True))
+        pieces = pieces_of(attached.object.shapes, name, moves=True)
+        pose_row(attached.object.pose)  # refuses what is none before anything changes
         self._objects.pop(name, None)
         if name in self._numbers:
             self._remove_body(name)
         self._attached[name] = attached
-        self._set_body(name, self._link_number[attached.link], self._paddings.get(name, 0.0), pieces)
+        link = self._link_number[attached.link]
+        self._set_body(name, link, self._paddings.get(name, 0.0), pieces, attached.object.pose)
 
     def attach_object(self, name: str, link: str, touch_links: Iterable[str] = ()) -> AttachedObject:
         """Attach an object of the world to a link where it is now.
@@ -411,7 +412,7 @@ class PlanningScene:
     def _set_link(self, number: int) -> None:
         link = self._names[number]
         pieces = self._geometry.pieces(link, self.scale(link))
-        self._world.set_body(number, number, self.padding(link), pieces.shapes, pieces.poses)
+        self._world.set_body(number, number, self.padding(link), pieces.shapes, pieces.poses, _NO_FRAME)
 
     def _number(self, name: str) -> int:
         if name not in self._numbers:
@@ -419,8 +420,9 @@ class PlanningScene:
             self._numbers[name], self._names[number] = number, name
         return self._numbers[name]
 
-    def _set_body(self, name: str, link: int, padding: float, pieces: Pieces) -> None:
-        self._world.set_body(self._number(name), link, padding, pieces.shapes, pieces.poses)
+    def _set_body(self, name: str, link: int, padding: float, pieces: Pieces, pose: Pose) -> None:
+        frame = np.array([pose_row(pose)])
+        self._world.set_body(self._number(name), link, padding, pieces.shapes, pieces.poses, frame)
         self._allow_body(name)
 
     def _remove_body(self, name: str) -> None:
@@ -464,12 +466,3 @@ class PlanningScene:
 
 def _moved(object: CollisionObject, pose: Pose) -> CollisionObject:
     return CollisionObject(name=object.name, shapes=object.shapes, pose=pose, subframes=object.subframes)
-
-
-def _in_frame(pose: Pose, pieces: Pieces) -> Pieces:
-    """Return pieces with their poses in the frame in which `pose` is."""
-    if pose == Pose():
-        return pieces
-    row = np.array([pose_row(pose)])
-    placed = compose_rows(row[:, _W_FIRST], pieces.poses[:, _W_FIRST])[:, _W_LAST]
-    return Pieces(pieces.shapes, np.ascontiguousarray(placed))
