@@ -3,10 +3,11 @@
 import io
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from PIL import Image
 from scipy import ndimage
 from tests.page.built_client import needs_client
@@ -54,7 +55,8 @@ class ArmUser(PanelUser):
     def arrow(self) -> tuple[float, float]:
         """Return the middle of the largest green part of the view, which is an arrow along y or its ring [px]."""
         red, green, blue = self._view().transpose(2, 0, 1)
-        labels, count = ndimage.label((green > 90) & (red < 60) & (blue < 60))
+        green_parts = ndimage.label((green > 90) & (red < 60) & (blue < 60))
+        labels, count = cast("tuple[NDArray[np.int32], int]", green_parts)
         assert count > 0, "no green handle in the view"
         sizes = ndimage.sum_labels(np.ones_like(labels), labels, range(1, count + 1))
         rows, columns = np.nonzero(labels == 1 + int(np.argmax(sizes)))

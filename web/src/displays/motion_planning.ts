@@ -1,12 +1,15 @@
 /** MoveIt's MotionPlanning: the planning scene, a query's start and goal, and the planned path. */
 
 import { computed, signal, untracked } from "@preact/signals";
+import { Matrix4 } from "three";
 
 import type { CollisionObject, DisplayTrajectory, Pose } from "../protocol/generated/ros_messages";
 import { GroupProperty } from "../rviz/properties";
 import type { Transform } from "../frames/transform";
 import { KeyedProperty } from "./keyed_property";
+import { poseMatrix } from "./markers/marker_scene";
 import type { ArmGroup, ArmModel } from "./moveit/arm_model";
+import { nearestPose } from "./moveit/nearest_pose";
 import { PathProperties, PathView } from "./moveit/path_view";
 import { Query } from "./moveit/query";
 import { QueryChecks } from "./moveit/query_checks";
@@ -180,13 +183,20 @@ export class MotionPlanningDisplay extends PlanningSceneDisplay {
   ): Shown {
     const { collidingColor: colliding, violationColor: violation, markerSize } = this.request;
     const checks = new QueryChecks(query, this.context.connection, model, (name) => this.moveGroupName(name));
-    const onDrag = (tip: string, pose: Pose): void =>
+    const onDrag = (tip: string, pose: Pose): void => {
+      const solver = solverOf(model, group, tip);
+      const { collisionAwareIk, approximateIk } = this.settings;
+      const [target, root] = [poseMatrix(pose, new Matrix4()), this.currentRoot];
       checks.reach({
-        group: solverOf(model, group, tip),
+        group: solver,
         tip,
         pose,
-        avoidCollisions: this.settings.collisionAwareIk.value.peek(),
+        avoidCollisions: collisionAwareIk.value.peek(),
+        nearest: approximateIk.value.peek()
+          ? (seed) => nearestPose({ model, group: solver, tip, target, seed, root })
+          : null,
       });
+    };
     const view = new QueryView(query, group, this.ghostFor(model, new KeyedProperty<LinkProperty>("Links")), {
       context: this.context,
       root: this.root,

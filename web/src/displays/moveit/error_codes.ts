@@ -1,6 +1,7 @@
 /** moveit_msgs/MoveItErrorCodes in words. */
 
 export const SUCCESS = 1;
+export const NO_IK_SOLUTION = -31;
 
 /** Code, its name, by which people search, and its words. */
 const CODES: readonly (readonly [number, string, string])[] = [
@@ -32,7 +33,7 @@ const CODES: readonly (readonly [number, string, string])[] = [
   [-28, "UNRECOGNIZED_GOAL_TYPE", "move_group does not know this kind of goal"],
   [-29, "CRASH", "The planner crashed"],
   [-30, "ABORT", "It was aborted"],
-  [-31, "NO_IK_SOLUTION", "No configuration reaches the pose"],
+  [NO_IK_SOLUTION, "NO_IK_SOLUTION", "No configuration reaches the pose"],
 ];
 
 /** Sentence for a code: "No path was found (PLANNING_FAILED)." */

@@ -5,7 +5,7 @@ import type { ContactInformation, Pose, RobotState } from "../../protocol/genera
 import { LatestRequest } from "../../protocol/latest_request";
 import type { RosMessage } from "../../protocol/ros_types";
 import type { ArmGroup, ArmModel, Positions } from "./arm_model";
-import { SUCCESS, words } from "./error_codes";
+import { NO_IK_SOLUTION, SUCCESS, words } from "./error_codes";
 import type { Query } from "./query";
 import { positionsOf, stateMessage } from "./robot_state";
 
@@ -19,6 +19,8 @@ export interface PoseRequest {
   readonly tip: string;
   readonly pose: Pose;
   readonly avoidCollisions: boolean;
+  /** Joints near the pose where none reaches it; null: the query stays as it is. */
+  readonly nearest: ((seed: Positions) => Positions) | null;
 }
 
 export class QueryChecks {
@@ -60,7 +62,7 @@ export class QueryChecks {
       this.query.fault.value = `Waiting for ${this.pending.service} for ${Math.floor(this.pending.seconds)} s.`;
   }
 
-  private async askPose({ group, tip, pose, avoidCollisions }: PoseRequest): Promise<boolean> {
+  private async askPose({ group, tip, pose, avoidCollisions, nearest }: PoseRequest): Promise<boolean> {
     const { query, model } = this;
     const request = {
       group_name: group.name,
@@ -76,10 +78,14 @@ export class QueryChecks {
     if (code === SUCCESS) {
       query.set(ofGroup(group, answer["solution"] as unknown as RobotState));
       query.fault.value = "";
+    } else if (code === NO_IK_SOLUTION && nearest !== null) {
+      query.set(nearest(query.positions.peek()));
+      query.fault.value = `No configuration of ${group.name} reaches there: this is near it.`;
     } else {
       query.isUnreachable.value = this.isHeld;
       const avoiding = avoidCollisions ? " without a collision" : "";
-      query.fault.value = code === -31 ? `No configuration of ${group.name} reaches there${avoiding}.` : words(code);
+      query.fault.value =
+        code === NO_IK_SOLUTION ? `No configuration of ${group.name} reaches there${avoiding}.` : words(code);
     }
     return true;
   }

@@ -82,7 +82,7 @@ export class SceneContents {
   }
 }
 
-export function shapeCount({ primitives, meshes, planes }: CollisionObject): number {
+function shapeCount({ primitives, meshes, planes }: CollisionObject): number {
   return primitives.length + meshes.length + planes.length;
 }
 

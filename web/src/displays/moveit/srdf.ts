@@ -11,7 +11,7 @@ export interface SrdfGroup {
 }
 
 /** A named state: `ready` of the group `panda_arm`. */
-export interface GroupState {
+interface GroupState {
   readonly name: string;
   readonly group: string;
   /** Values by joint [rad, m]; of joints with several values, the first. */
@@ -26,7 +26,7 @@ export interface EndEffector {
   readonly parentGroup: string;
 }
 
-export interface VirtualJoint {
+interface VirtualJoint {
   readonly name: string;
   readonly type: string;
   readonly parentFrame: string;

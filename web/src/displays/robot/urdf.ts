@@ -2,7 +2,7 @@
 
 type Triple = readonly [number, number, number];
 
-export interface Origin {
+interface Origin {
   readonly xyz: Triple;
   /** Roll, pitch, yaw about fixed axes [rad]. */
   readonly rpy: Triple;
@@ -48,7 +48,7 @@ export interface RobotJoint {
 }
 
 /** A joint follows another one: position = multiplier × the other's + offset. */
-export interface Mimic {
+interface Mimic {
   readonly joint: string;
   readonly multiplier: number;
   readonly offset: number;
