@@ -31,6 +31,8 @@ std::int64_t step_ns(void* self) { return world_at(self).step_ns(); }
 int contacts(void* self, TrundleGazeboContact* out, int capacity) { return world_at(self).contacts(out, capacity); }
 void warn(void* self, const char* text) { world_at(self).warn(text); }
 void enter(void*, const char* plugin) { set_running_plugin(plugin); }
+void begin_call(void* self) { world_at(self).begin_call(); }
+void end_call(void* self) { world_at(self).end_call(); }
 
 struct Call {
   explicit Call(PluginWorld& of) : world(of) { world.enter_call(); }
@@ -55,8 +57,8 @@ void* symbol(void* library, const char* name) { return ::dlsym(library, name); }
 
 PluginHost::PluginHost(const Kinematics& kinematics, std::string world_name, std::string world_elements)
     : world_(kinematics),
-      host_{TRUNDLE_GAZEBO_ABI, &world_,          find,     read, write, request,
-            trundle::time_ns,   trundle::step_ns, contacts, warn, enter},
+      host_{TRUNDLE_GAZEBO_ABI, &world_,  find, read,  write,      request, trundle::time_ns,
+            trundle::step_ns,   contacts, warn, enter, begin_call, end_call},
       world_name_(std::move(world_name)),
       world_elements_(std::move(world_elements)),
       start_(std::chrono::steady_clock::now()) {}
@@ -143,6 +145,18 @@ void PluginHost::reset(int plugin) {
   world_.clear_commands();
   has_stepped_ = false;
   for (Kit& kit : kits_) kit.functions->reset(kit.world, 0);
+}
+
+bool PluginHost::wants_reading(int plugin) const {
+  const auto& [kit, number] = plugins_.at(static_cast<std::size_t>(plugin) - 1);
+  return kit.functions->wants_reading(kit.world, number) != 0;
+}
+
+void PluginHost::take_reading(int plugin, std::int64_t time_ns, const TrundleGazeboReading& reading) {
+  const auto& [kit, number] = plugins_.at(static_cast<std::size_t>(plugin) - 1);
+  world_.begin_call();
+  kit.functions->take_reading(kit.world, number, time_ns, &reading);
+  world_.end_call();
 }
 
 void PluginHost::close() {

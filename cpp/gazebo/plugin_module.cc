@@ -1,6 +1,8 @@
 // The Python module `_plugin_host`: compiled plugins of Gazebo, which act before each step of the engine.
 #include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
@@ -10,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -57,6 +60,43 @@ std::vector<std::pair<std::vector<std::string>, std::vector<double>>> take_reque
   return result;
 }
 
+using Values = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Image = nb::ndarray<const std::uint8_t, nb::shape<-1, -1, 3>, nb::c_contig, nb::device::cpu>;
+using Depths = nb::ndarray<const float, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using ContactPoint = std::tuple<std::string, std::string, std::array<double, 10>>;
+
+// Depths, if any, have the image's size. Values are as many as the sensor's kind has.
+void take_reading(PluginHost& self, int plugin, std::int64_t time_ns, const Values& values,
+                  const std::optional<Image>& image, const std::optional<Depths>& depths,
+                  const std::vector<ContactPoint>& points) {
+  TrundleGazeboReading reading{
+      values.data(), static_cast<std::int64_t>(values.shape(0)), nullptr, nullptr, 0, 0, nullptr, 0};
+  if (image) {
+    reading.image = image->data();
+    reading.height = static_cast<int>(image->shape(0));
+    reading.width = static_cast<int>(image->shape(1));
+  }
+  if (depths) {
+    if (!image || depths->shape(0) != image->shape(0) || depths->shape(1) != image->shape(1))
+      throw nb::value_error("depths have the image's size");
+    reading.depths = depths->data();
+  }
+  std::vector<TrundleGazeboContact> contacts;
+  for (const auto& [collision1, collision2, numbers] : points) {
+    TrundleGazeboContact contact{collision1.c_str(), collision2.c_str(), {}, {}, {}, numbers[9]};
+    for (std::size_t k = 0; k < 3; ++k) {
+      contact.position[k] = numbers[k];
+      contact.normal[k] = numbers[3 + k];
+      contact.force[k] = numbers[6 + k];
+    }
+    contacts.push_back(contact);
+  }
+  reading.contacts = contacts.data();
+  reading.contact_count = static_cast<int>(contacts.size());
+  const nb::gil_scoped_release release;
+  self.take_reading(plugin, time_ns, reading);
+}
+
 nb::object checkpoint(nb::handle_t<PluginHost> self) {
   return nb::cpp_function(
       [owner = nb::borrow(self), restore = nb::cast<PluginHost&>(self).checkpoint()] { restore(); });
@@ -94,6 +134,9 @@ NB_MODULE(_plugin_host, module) {
           },
           "library"_a, "parent"_a, "name"_a, "file"_a, "elements"_a)
       .def("reset", &PluginHost::reset, "plugin"_a, nb::call_guard<nb::gil_scoped_release>())
+      .def("wants_reading", &PluginHost::wants_reading, "plugin"_a)
+      .def("take_reading", trundle::take_reading, "plugin"_a, "time_ns"_a, "values"_a, "image"_a.none(),
+           "depths"_a.none(), "contacts"_a)
       .def("close", &PluginHost::close, nb::call_guard<nb::gil_scoped_release>())
       .def("begin_stride", &PluginHost::begin_stride)
       .def("act", &PluginHost::act, "time_ns"_a, "step_ns"_a, nb::call_guard<nb::gil_scoped_release>())

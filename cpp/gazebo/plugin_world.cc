@@ -24,7 +24,7 @@ bool are_finite(const double* values, int count) {
   return std::all_of(values, values + count, [](double value) { return std::isfinite(value); });
 }
 
-constexpr int kCounts[] = {6, 7, 6, 1, 1, 2, 1};  // numbers of each command
+constexpr int kCounts[] = {6, 7, 6, 1, 1, 1, 2, 1};  // numbers of each command
 
 }  // namespace
 
@@ -38,12 +38,18 @@ void PluginWorld::leave_call() {
   copy_values();
   --inside;
 }
+void PluginWorld::begin_call() {
+  ++inside;
+  has_poses_ = has_twists_ = false;
+}
+void PluginWorld::end_call() { --inside; }
 
 void PluginWorld::bind(mjModel* m, mjData* d, std::shared_ptr<MotorBank> bank,
                        const std::vector<std::pair<std::string, int>>& links,
                        const std::vector<std::pair<std::string, std::vector<BoundAxis>>>& joints,
                        std::vector<std::string> collisions) {
   const std::scoped_lock lock(names_mutex_, copies_mutex_);
+  if (m != m_) contact_bits_.clear();
   m_ = m;
   d_ = d;
   bank_ = std::move(bank);
@@ -54,6 +60,7 @@ void PluginWorld::bind(mjModel* m, mjData* d, std::shared_ptr<MotorBank> bank,
     const auto [at, is_new] = link_numbers_.try_emplace(name, static_cast<int>(links_.size()));
     if (is_new) links_.emplace_back();
     links_[static_cast<std::size_t>(at->second)].body = body;
+    links_[static_cast<std::size_t>(at->second)].name = name;
   }
   for (const auto& [name, axes] : joints) {
     const auto [at, is_new] = joint_numbers_.try_emplace(name, static_cast<int>(joints_.size()));
@@ -108,6 +115,7 @@ void PluginWorld::end() {
 }
 
 void PluginWorld::clear_commands() {
+  restore_contact_bits();
   for (Link& link : links_) link.pending = {}, link.is_applied = false;
   for (Joint& joint : joints_)
     for (Axis& axis : joint.axes) axis.mode = Mode::kNone, axis.effort = axis.last_effort = 0.0;
@@ -230,7 +238,7 @@ bool PluginWorld::write(int command, int number, int axis, const double* values,
 }
 
 bool PluginWorld::write_now(const Write& write) {
-  if (write.command <= TRUNDLE_SET_TWIST) {
+  if (write.command <= TRUNDLE_SET_COLLIDE) {
     if (write.number >= static_cast<int>(links_.size())) return false;
     Link& link = links_[static_cast<std::size_t>(write.number)];
     return link.body >= 0 && write_link(link, write);
@@ -261,6 +269,7 @@ bool PluginWorld::write_link(Link& link, const Write& write) {
     for (std::size_t i = 0; i < 6; ++i) link.pending[i] += write.values[i];
     return true;
   }
+  if (write.command == TRUNDLE_SET_COLLIDE) return set_collides(link, write.values[0] != 0.0);
   const int joint = free_joint(link.body);
   if (joint < 0) return false;
   double *q = d_->qpos + m_->jnt_qposadr[joint], *v = d_->qvel + m_->jnt_dofadr[joint];
@@ -280,6 +289,26 @@ bool PluginWorld::write_link(Link& link, const Write& write) {
   }
   moved(dof);
   return true;
+}
+
+bool PluginWorld::set_collides(Link& link, bool collides) {
+  const std::string prefix = link.name + "::";
+  for (int geom = 0; geom < m_->ngeom; ++geom) {
+    if (collisions_[static_cast<std::size_t>(geom)].compare(0, prefix.size(), prefix) != 0) continue;
+    const auto [at, is_new] = contact_bits_.try_emplace(geom, m_->geom_contype[geom], m_->geom_conaffinity[geom]);
+    m_->geom_contype[geom] = collides ? at->second.first : 0;
+    m_->geom_conaffinity[geom] = collides ? at->second.second : 0;
+  }
+  if (m_->body_dofnum[link.body] > 0) moved(m_->body_dofadr[link.body]);
+  return true;
+}
+
+void PluginWorld::restore_contact_bits() {
+  for (const auto& [geom, bits] : contact_bits_) {
+    m_->geom_contype[geom] = bits.first;
+    m_->geom_conaffinity[geom] = bits.second;
+  }
+  contact_bits_.clear();
 }
 
 bool PluginWorld::write_axis(Axis& axis, const Write& write) {

@@ -59,6 +59,9 @@ class PluginWorld {
   // Within a plugin's call outside of a step, such as its Load.
   void enter_call();
   void leave_call();
+  // Within what a plugin does before a step, but outside of `begin` and `end`.
+  void begin_call();
+  void end_call();
 
   int find(int kind, const std::string& name) const;
   int read(int value, int number, int axis, double* out, int capacity);
@@ -84,6 +87,7 @@ class PluginWorld {
   using Wrench = std::array<double, 6>;
 
   struct Link {
+    std::string name;
     int body = -1;
     Wrench pending{}, base{}, written{};
     bool is_applied = false;
@@ -111,6 +115,8 @@ class PluginWorld {
   int read_now(int value, int number, int axis, double* out);
   bool write_now(const Write& write);
   bool write_link(Link& link, const Write& write);
+  bool set_collides(Link& link, bool collides);
+  void restore_contact_bits();
   bool write_axis(Axis& axis, const Write& write);
   void synchronize(int dof);
   void moved(int dof);
@@ -127,7 +133,8 @@ class PluginWorld {
   std::unordered_map<std::string, int> link_numbers_, joint_numbers_;
   std::vector<Link> links_;
   std::vector<Joint> joints_;
-  std::vector<std::string> collisions_;  // `model::link::collision` of each geom
+  std::vector<std::string> collisions_;                        // `model::link::collision` of each geom
+  std::unordered_map<int, std::pair<int, int>> contact_bits_;  // contype and conaffinity of changed geoms
   std::vector<int> touched_links_;
   std::vector<std::pair<int, int>> touched_axes_;
   std::vector<double> qvel_;

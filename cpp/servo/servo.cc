@@ -9,6 +9,7 @@ double Servo::read(std::int64_t time_ns, std::int64_t step_ns) {
   const std::int64_t passed_ns = std::min(time_ns - time_ns_, longest_ns + step_ns);
   time_ns_ = time_ns;
   if (passed_ns <= 0) return 0.0;
+  if (hardware_) hardware_->read(time_ns, passed_ns);
   for (const auto& joint : joints_) joint->read();
   return static_cast<double>(passed_ns) / 1e9;
 }
@@ -21,6 +22,7 @@ bool Servo::update(double dt) {
 
 void Servo::write(double dt) {
   for (const auto& joint : joints_) joint->write(dt);
+  if (hardware_) hardware_->write(time_ns_, std::llround(dt * 1e9));
 }
 
 bool Servo::act(std::int64_t time_ns, std::int64_t step_ns) {
@@ -35,6 +37,7 @@ std::function<void()> Servo::checkpoint() {
   std::vector<std::function<void()>> restores;
   for (const auto& law : laws_) restores.push_back(law->checkpoint());
   for (const auto& joint : joints_) restores.push_back(joint->checkpoint());
+  if (hardware_) restores.push_back(hardware_->checkpoint());
   return [this, saved = *this, restores] {
     *this = saved;
     for (const auto& restore : restores) restore();

@@ -13,12 +13,30 @@
 
 namespace trundle {
 
+// What reads and drives joints in place of the engine; times [ns].
+class ServoHardware {
+ public:
+  ServoHardware() = default;
+  ServoHardware(const ServoHardware&) = delete;
+  ServoHardware& operator=(const ServoHardware&) = delete;
+  virtual ~ServoHardware() = default;
+
+  virtual void read(std::int64_t time_ns, std::int64_t period_ns) = 0;
+  virtual void write(std::int64_t time_ns, std::int64_t period_ns) = 0;
+
+  // Return a function after which repeated steps do not reach it again.
+  virtual std::function<void()> checkpoint() = 0;
+};
+
 class Servo : public StepAction {
  public:
   explicit Servo(std::vector<std::shared_ptr<ServoJoint>> joints) : joints_(std::move(joints)) {}
 
   // Run these laws from now on.
   void set_laws(std::vector<std::shared_ptr<ServoLaw>> laws) { laws_ = std::move(laws); }
+
+  // Read and write by this hardware, too; null: by the engine alone.
+  void set_hardware(std::shared_ptr<ServoHardware> hardware) { hardware_ = std::move(hardware); }
 
   // Begin a period now; no later one is longer than `longest_ns` plus a step.
   void restart(std::int64_t time_ns) { time_ns_ = time_ns; }
@@ -39,6 +57,7 @@ class Servo : public StepAction {
  private:
   std::vector<std::shared_ptr<ServoJoint>> joints_;
   std::vector<std::shared_ptr<ServoLaw>> laws_;
+  std::shared_ptr<ServoHardware> hardware_;
   std::int64_t time_ns_ = 0;  // time of the last read
 };
 

@@ -32,6 +32,12 @@ void ServoJoint::bind(ServoAxis axis) {
 }
 
 void ServoJoint::read() {
+  if (numbers_.command) {
+    position = *numbers_.position;
+    velocity = *numbers_.velocity;
+    effort = *numbers_.effort;
+    return;
+  }
   const mjData* d = axis_.bank->data();
   position = d->qpos[axis_.qpos] * axis_.sign;
   velocity = velocity_at(axis_.bank->model(), d, axis_.dof) * axis_.sign;
@@ -62,6 +68,10 @@ void ServoJoint::start() {
 }
 
 void ServoJoint::write(double dt) {
+  if (numbers_.command) {
+    *numbers_.command = command;
+    return;
+  }
   switch (interface_) {
     case Interface::kEffort: axis_.bank->command_effort(axis_.axis, command, true); break;
     case Interface::kVelocity: write_velocity(dt); break;

@@ -27,6 +27,12 @@ struct ServoAxis {
   double sign;
 };
 
+// Numbers of a joint that are elsewhere, as in the hardware of a compiled library.
+struct JointNumbers {
+  const double *position = nullptr, *velocity = nullptr, *effort = nullptr;
+  double* command = nullptr;
+};
+
 class ServoJoint {
  public:
   // pid: efforts from position or velocity errors; null: position or velocity is driven directly.
@@ -36,6 +42,15 @@ class ServoJoint {
 
   // Use another engine's axis. Throws std::invalid_argument if it does not exist.
   void bind(ServoAxis axis);
+
+  // Read the state from these numbers, and write the command there, in place of the engine's; they have to exist as
+  // long as the joint, or until they are unset.
+  void set_numbers(const JointNumbers& numbers) { numbers_ = numbers; }
+
+  // Take over a command that was written to these numbers.
+  void take_command() {
+    if (numbers_.command) command = *numbers_.command;
+  }
 
   // Read position, velocity and effort.
   void read();
@@ -80,6 +95,7 @@ class ServoJoint {
   JointTraits traits_;
   bool is_at_rest_ = true;
   ServoAxis axis_;
+  JointNumbers numbers_;
 };
 
 }  // namespace trundle

@@ -198,13 +198,15 @@ void bind_drive(nb::module_& module) {
 }
 
 void bind_actions(nb::module_& module) {
+  nb::class_<ServoHardware>(module, "ServoHardware");
   nb::class_<Servo, StepAction>(module, "Servo")
       .def(nb::init<std::vector<std::shared_ptr<ServoJoint>>>(), "joints"_a)
       .def("set_laws", &Servo::set_laws, "laws"_a)
+      .def("set_hardware", &Servo::set_hardware, "hardware"_a.none())
       .def("restart", &Servo::restart, "time_ns"_a)
-      .def("read", &Servo::read, "time_ns"_a, "step_ns"_a)
-      .def("update", &Servo::update, "dt"_a)
-      .def("write", &Servo::write, "dt"_a)
+      .def("read", &Servo::read, "time_ns"_a, "step_ns"_a, nb::call_guard<nb::gil_scoped_release>())
+      .def("update", &Servo::update, "dt"_a, nb::call_guard<nb::gil_scoped_release>())
+      .def("write", &Servo::write, "dt"_a, nb::call_guard<nb::gil_scoped_release>())
       .def_prop_ro("time_ns", &Servo::time_ns)
       .def_rw("longest_ns", &Servo::longest_ns);
   nb::class_<MimicAction, StepAction>(module, "MimicAction")

@@ -61,6 +61,14 @@ sdf::ElementPtr read_elements(const char* text, int64_t size) {
 
 void Builder::SetHost(const WorldPtr& world, const TrundleGazeboHost* host, const sdf::ElementPtr& sdf) {
   world->host_ = host;
+  if (const sdf::ElementPtr place = sdf ? sdf->FindElement("spherical_coordinates") : sdf::ElementPtr()) {
+    const auto degrees = [&place](const char* name) {
+      return ignition::math::Angle(place->Get<double>(name, 0.0).first * 3.14159265358979323846 / 180.0);
+    };
+    world->spherical_coordinates_ = boost::make_shared<common::SphericalCoordinates>(
+        common::SphericalCoordinates::EARTH_WGS84, degrees("latitude_deg"), degrees("longitude_deg"),
+        place->Get<double>("elevation", 0.0).first, degrees("heading_deg"));
+  }
   const sdf::ElementPtr physics = sdf ? sdf->FindElement("physics") : sdf::ElementPtr();
   if (!physics) return;
   world->physics_->update_rate_ = physics->Get<double>("real_time_update_rate", 1000.0).first;

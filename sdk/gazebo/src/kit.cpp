@@ -11,6 +11,7 @@
 
 #include <gazebo/common/common.hh>
 #include <gazebo/physics/physics.hh>
+#include <gazebo/sensors/sensors.hh>
 
 #include "builder.h"
 
@@ -22,6 +23,7 @@ struct LoadedPlugin {
   std::string model;
   int number;
   boost::shared_ptr<void> object;
+  sensors::SensorPtr sensor;
   std::function<void()> reset;
 };
 
@@ -98,6 +100,7 @@ void remove_model(void* self, const char* name) {
   open->plugins.erase(std::remove_if(open->plugins.begin(), open->plugins.end(),
                                      [name](const std::unique_ptr<LoadedPlugin>& p) { return p->model == name; }),
                       open->plugins.end());
+  sensors::SensorManager::Instance()->Remove(open->world.get(), name);
   physics::Builder::RemoveModel(open->world, name);
 }
 
@@ -109,6 +112,18 @@ T* hold(LoadedPlugin& loaded, void* made, const char* file, const char* name) {
   loaded.object = plugin;
   loaded.reset = [plugin] { plugin->Reset(); };
   return plugin.get();
+}
+
+// Sensor of a name as `model::link::sensor`; null if there is none.
+sensors::SensorPtr find_sensor(const OpenWorld& open, const std::string& name) {
+  const std::size_t last = name.rfind("::");
+  if (last == std::string::npos) return sensors::SensorPtr();
+  const physics::BasePtr parent = open.world->BaseByName(name.substr(0, last));
+  if (!parent || !parent->GetSDF()) return sensors::SensorPtr();
+  for (sdf::ElementPtr e = parent->GetSDF()->FindElement("sensor"); e; e = e->GetNextElement("sensor"))
+    if (e->Get<std::string>("name") == name.substr(last + 2))
+      return sensors::SensorManager::Instance()->Make(open.world, parent, e);
+  return sensors::SensorPtr();
 }
 
 std::string load_plugin(OpenWorld& open, LoadedPlugin& loaded, void* library, const char* parent, const char* file,
@@ -134,7 +149,23 @@ std::string load_plugin(OpenWorld& open, LoadedPlugin& loaded, void* library, co
       plugin->Init();
       return "";
     }
-    default: return "it is a plugin of a sensor, a visual or the program, which are not run in C++";
+    case SENSOR_PLUGIN: {
+      loaded.sensor = find_sensor(open, parent);
+      if (!loaded.sensor) return "it is a sensor's plugin, and belongs into a <sensor> of a kind that the kit has";
+      const std::string name_of_parent = loaded.sensor->ParentName();
+      loaded.model = name_of_parent.substr(0, name_of_parent.find("::"));
+      SensorPlugin* plugin = hold<SensorPlugin>(loaded, make(), file, name);
+      plugin->Load(loaded.sensor, sdf);
+      plugin->Init();
+      return "";
+    }
+    case SYSTEM_PLUGIN: {
+      SystemPlugin* plugin = hold<SystemPlugin>(loaded, make(), file, name);
+      plugin->Load(0, nullptr);
+      plugin->Init();
+      return "";
+    }
+    default: return "it is a plugin of a visual or of the window, which are not run in C++";
   }
 }
 
@@ -182,13 +213,29 @@ void reset(void* self, int number) {
   }
 }
 
+LoadedPlugin* plugin_of(void* self, int number) {
+  for (const std::unique_ptr<LoadedPlugin>& plugin : static_cast<OpenWorld*>(self)->plugins)
+    if (plugin->number == number) return plugin.get();
+  return nullptr;
+}
+
+int wants_reading(void* self, int number) {
+  const LoadedPlugin* const plugin = plugin_of(self, number);
+  return plugin && plugin->sensor && plugin->sensor->IsWanted();
+}
+
+void take_reading(void* self, int number, int64_t time_ns, const TrundleGazeboReading* reading) {
+  LoadedPlugin* const plugin = plugin_of(self, number);
+  if (plugin && plugin->sensor) plugin->sensor->Take(static_cast<OpenWorld*>(self)->world.get(), time_ns, *reading);
+}
+
 const char* hint() {
   static thread_local std::string text;
   return (text = sdf::LastMissingElement()).c_str();
 }
 
-const TrundleGazeboKit kit = {TRUNDLE_GAZEBO_ABI, open_world, close_world, add_model, remove_model, load,
-                              before_step,        after_step, reset,       hint};
+const TrundleGazeboKit kit = {TRUNDLE_GAZEBO_ABI, open_world, close_world,   add_model,    remove_model, load,
+                              before_step,        after_step, wants_reading, take_reading, reset,        hint};
 
 }  // namespace
 

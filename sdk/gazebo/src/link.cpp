@@ -194,5 +194,15 @@ void Link::EndStep(double step_s) {
   has_last_twist_ = true;
 }
 
+void Link::SetCollideMode(const std::string& mode) {
+  if (mode != "none" && mode != "all") {
+    gzerr << "link " << GetScopedName() << ": collide mode \"" << mode << "\" is not known; there are all and none\n";
+    return;
+  }
+  const TrundleGazeboHost* host = world_->Host();
+  const double collides = mode == "all";
+  host->write(host->self, TRUNDLE_SET_COLLIDE, number_, 0, &collides, 1);
+}
+
 }  // namespace physics
 }  // namespace gazebo

@@ -140,6 +140,10 @@ JointPtr Model::CreateJoint(const std::string& name, const std::string& type, Li
   return joint;
 }
 
+void Model::SetCollideMode(const std::string& mode) {
+  for (const LinkPtr& link : links_) link->SetCollideMode(mode);
+}
+
 bool Model::RemoveJoint(const std::string& name) {
   for (std::size_t i = 0; i < joints_.size(); ++i)
     if (joints_[i]->GetName() == name && joints_[i]->is_made_) {

@@ -2,6 +2,8 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from itertools import chain, count
+from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, TypeVar
 
 from trundle.base.diagnostics import DescriptionError, Diagnostics, TrundleError
@@ -16,6 +18,7 @@ from trundle.gazebo.plugins import (
     find_world_plugin,
     is_cosmetic,
     is_sensor_plugin,
+    plugin_library,
     require_plugin,
 )
 from trundle.robots.model import PluginTag, Visual, World
@@ -129,8 +132,20 @@ def load_world_plugins(
 _Sensor = TypeVar("_Sensor", "CameraSensor", "InstrumentSensor")
 
 
-def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", simulation: "Simulation") -> list[_Sensor]:
-    """Attach the sensors' plugins, which publish the readings; return the sensors without a plugin, in order."""
+def attach_sensor_plugins(
+    sensors: Sequence[_Sensor],
+    node: "Node",
+    simulation: "Simulation",
+    environment: Mapping[str, str] = MappingProxyType({}),
+) -> list[_Sensor]:
+    """Attach the sensors' plugins, which publish the readings; return the sensors without a plugin, in order.
+
+    Args:
+        sensors: a model's sensors.
+        node: publishes their readings.
+        simulation: the simulation.
+        environment: variables that locate compiled plugins.
+    """
     from trundle.gazebo.plugins import PluginNames
     from trundle.ros import Publisher
 
@@ -142,6 +157,10 @@ def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", simulation: 
         plugins = [(tag, find_sensor_plugin(tag)) for tag in sensor.sensor.plugins]
         model_plugins = [(tag, find_model_sensor_plugin(tag, sensor.sensor.name)) for tag in sensor.model.plugins]
         for tag, attach in (*plugins, *(pair for pair in model_plugins if pair[1] is not None)):
+            library = plugin_library(tag, environment) if tag in sensor.sensor.plugins else None
+            if library is not None:
+                attached_count += _attach_compiled(library, tag, sensor, node, simulation)
+                continue
             if attach is None:
                 _warn_unsupported(sensor.name, tag, report)
                 continue
@@ -160,6 +179,21 @@ def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", simulation: 
     return silent
 
 
+def _attach_compiled(
+    library: Path, tag: PluginTag, sensor: "CameraSensor | InstrumentSensor", node: "Node", simulation: "Simulation"
+) -> bool:
+    """Load a sensor's plugin from a compiled library; return False, with a warning, if it cannot be loaded."""
+    from .plugins.compiled import attach_compiled_plugin  # lazy: most robots have none
+
+    try:
+        attach_compiled_plugin(library, tag, sensor, node, simulation)
+    except TrundleError as error:
+        subject = _sensor_plugin(sensor.name, tag)
+        simulation.report.warn_error(error, tag.at, _FALLBACK, "plugin-failed", subject=subject)
+        return False
+    return True
+
+
 def report_missing_plugins(world: World, environment: Mapping[str, str], report: Diagnostics) -> None:
     """Warn of the plugins that a run would not find, without loading any."""
 
@@ -172,7 +206,7 @@ def report_missing_plugins(world: World, environment: Mapping[str, str], report:
         for tag in (tag for visual in link.visuals for tag in visual.plugins if not is_cosmetic(tag)):
             require(tag)
         for sensor in link.sensors:
-            for tag in (tag for tag in sensor.plugins if not is_sensor_plugin(tag)):
+            for tag in (tag for tag in sensor.plugins if not is_sensor_plugin(tag, environment)):
                 _warn_unsupported(sensor.name, tag, report)
 
 

@@ -229,7 +229,7 @@ class LiveWorld:
     def _advertise(self, model: ModelHandle) -> None:
         if self._interfaces is not None and self.mounted is not None:
             lone_robot = self._robots.get(model) if len(self._robots) == 1 else None
-            self._interfaces.advertise(model, *self.mounted.of_model(model), lone_robot)
+            self._interfaces.advertise(model, *self.mounted.of_model(model), lone_robot, self.environment)
 
     def _load_plugins_of(self, model: ModelHandle) -> None:
         make_node = None if self._interfaces is None else self._interfaces.node_maker(model)

@@ -1,6 +1,6 @@
 """ROS interfaces of the models of a world: topics of their sensors, nodes of their plugins."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from trundle.gazebo.model_plugins import attach_sensor_plugins
 from trundle.robots.robot import Robot
@@ -57,6 +57,7 @@ class ModelInterfaces:
         cameras: Sequence[CameraSensor],
         sensors: Sequence[InstrumentSensor],
         lone_robot: Robot | None,
+        environment: Mapping[str, str],
     ) -> None:
         """Advertise the topics of the sensors of a model.
 
@@ -65,6 +66,7 @@ class ModelInterfaces:
             cameras: the model's cameras.
             sensors: the model's other sensors.
             lone_robot: the model's URDF, if it is the only robot.
+            environment: variables that locate compiled plugins.
         """
         if not cameras and not sensors:
             return
@@ -73,9 +75,9 @@ class ModelInterfaces:
             names = FrameNames() if lone_robot is None else FrameNames.from_robot(lone_robot)
         node, simulation = self._node, self._simulation
         with node.endpoints.record() as self._endpoints[model]:
-            silent_cameras = attach_sensor_plugins(cameras, node, simulation)
+            silent_cameras = attach_sensor_plugins(cameras, node, simulation, environment)
             make_camera_topics(node, self._static_broadcaster, silent_cameras, names)
-            silent_sensors = attach_sensor_plugins(sensors, node, simulation)
+            silent_sensors = attach_sensor_plugins(sensors, node, simulation, environment)
             make_sensor_topics(node, self._static_broadcaster, silent_sensors, names)
 
     def unload(self, model: ModelHandle) -> None:

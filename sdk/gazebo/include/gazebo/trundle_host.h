@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 /* Version of this file, of the plugins' registration and of the classes that plugins see. */
-#define TRUNDLE_GAZEBO_ABI 1
+#define TRUNDLE_GAZEBO_ABI 2
 
 enum TrundleGazeboKind { TRUNDLE_MODEL, TRUNDLE_LINK, TRUNDLE_JOINT };
 
@@ -32,6 +32,7 @@ enum TrundleGazeboCommand {
   TRUNDLE_ADD_WRENCH,   /* 6: force at the link's centre of mass and torque, for the coming step */
   TRUNDLE_SET_POSE,     /* 7: of a free link's frame */
   TRUNDLE_SET_TWIST,    /* 6: of a free link's frame */
+  TRUNDLE_SET_COLLIDE,  /* 1: whether a link's collisions touch anything; until a reset */
   TRUNDLE_SET_POSITION, /* 1: of a joint's axis */
   TRUNDLE_SET_SPEED,    /* 1: of a joint's axis, as if by an impulse that only the child feels; for one step */
   TRUNDLE_DRIVE,        /* 2: speed and largest effort of a joint's motor, until the next */
@@ -45,6 +46,20 @@ struct TrundleGazeboContact {
   double normal[3]; /* into the first collision */
   double force[3];  /* on the first collision */
   double depth;
+};
+
+/* Reading of a sensor; what its kind does not have is null. */
+struct TrundleGazeboReading {
+  /* ray: ranges, then as many intensities; imu: rotation, angular velocity, acceleration; gps: latitude, longitude
+     [rad], altitude; sonar: range; force_torque: force, torque. */
+  const double* values;
+  int64_t count;
+  /* Cameras: rows of colors, three bytes each, and depths. */
+  const unsigned char* image;
+  const float* depths;
+  int width, height;
+  const struct TrundleGazeboContact* contacts;
+  int contact_count;
 };
 
 struct TrundleGazeboHost {
@@ -68,6 +83,9 @@ struct TrundleGazeboHost {
   void (*warn)(void* self, const char* text);
   /* Name of the plugin whose code runs in this thread, or null; for messages after a crash. */
   void (*enter)(void* self, const char* plugin);
+  /* Around what a plugin does before a step, but not in `before_step`: reads and writes reach the simulation. */
+  void (*begin_call)(void* self);
+  void (*end_call)(void* self);
 };
 
 /* What the library does for the simulator; all on the simulation's thread. */
@@ -79,12 +97,15 @@ struct TrundleGazeboKit {
   void (*add_model)(void* world, const char* name, const char* elements, int64_t size);
   void (*remove_model)(void* world, const char* name);
   /* Load a plugin of a library opened by dlopen; return its number from 1 on, or 0 with a reason.
-     parent: name of the model, or of the world. */
+     parent: name of the model or of the world, or `model::link::sensor`, in place of the link perhaps a joint. */
   int (*load)(void* world, void* library, const char* parent, const char* name, const char* file, const char* elements,
               int64_t size, char* reason, int reason_size);
   /* Before each step, and after the last one's; a negative time: there was none. */
   void (*before_step)(void* world, int64_t time_ns, int64_t real_ns);
   void (*after_step)(void* world, int64_t time_ns, int64_t real_ns);
+  /* Whether anybody wants readings of a plugin's sensor, and the next reading, after the step. */
+  int (*wants_reading)(void* world, int plugin);
+  void (*take_reading)(void* world, int plugin, int64_t time_ns, const struct TrundleGazeboReading* reading);
   /* After a reset: of a plugin, by its number; 0: of the world, before its plugins. */
   void (*reset)(void* world, int plugin);
   /* Why the last plugin may have crashed, such as a parameter that it looked for; "" if nothing is known. */

@@ -12,6 +12,7 @@ from .catalog import (
     is_sensor_plugin as is_sensor_plugin,
     require_plugin as require_plugin,
 )
+from .compiled.library import plugin_library as plugin_library
 from .documentation import (
     PluginDocumentation as PluginDocumentation,
     PluginParameter as PluginParameter,

@@ -189,9 +189,9 @@ def find_world_plugin(tag: PluginTag, environment: Mapping[str, str]) -> tuple[t
     return _find(tag, environment, WorldPlugin)
 
 
-def is_sensor_plugin(tag: PluginTag) -> bool:
-    """True if `find_sensor_plugin` would find the plugin; loads nothing."""
-    return _base_name(tag) in SENSOR_PLUGINS
+def is_sensor_plugin(tag: PluginTag, environment: Mapping[str, str]) -> bool:
+    """True if the plugin is Trundle's, or in a compiled library; loads nothing."""
+    return _base_name(tag) in SENSOR_PLUGINS or plugin_library(tag, environment) is not None
 
 
 def find_sensor_plugin(tag: PluginTag) -> "Callable[[Any, TagParameters, PluginNames], None] | None":

@@ -61,9 +61,9 @@ class CodeConsent:
 
 
 def _plugins(model: Model) -> list[PluginTag]:
-    """Return the plugins of a model and its visuals; those of sensors are Trundle's own."""
-    visuals = (visual for link in model.links for visual in link.visuals)
-    return [*model.plugins, *(tag for visual in visuals for tag in visual.plugins)]
+    """Return the plugins of a model, its visuals and its sensors."""
+    parts = (part for link in model.links for part in (*link.visuals, *link.sensors))
+    return [*model.plugins, *(tag for part in parts for tag in part.plugins)]
 
 
 def _parts(code: Mapping[Path, bytes]) -> list[bytes]:

@@ -4,6 +4,7 @@ from ._servo import (
     MimicAction as MimicAction,
     PidLoop as PidLoop,
     Servo as Servo,
+    ServoHardware as ServoHardware,
     ServoJoint as ServoJoint,
     ServoLaw as ServoLaw,
     ToolboxPid as ToolboxPid,

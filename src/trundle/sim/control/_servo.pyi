@@ -276,6 +276,9 @@ class GripperLaw(ServoLaw):
     def take_event(self) -> bool | None:
         """Return the result of the watched goal once: True if it was reached, False if the finger stalled."""
 
+class ServoHardware:
+    """What reads and drives joints in place of the engine."""
+
 class Servo(StepAction):
     """Joints of a robot, with the laws that command them; acts before each step."""
 
@@ -285,6 +288,9 @@ class Servo(StepAction):
     def __init__(self, joints: Sequence[ServoJoint]) -> None: ...
     def set_laws(self, laws: Sequence[ServoLaw]) -> None:
         """Run the given laws from now on."""
+
+    def set_hardware(self, hardware: ServoHardware | None) -> None:
+        """Read and write by this hardware, too; None: by the engine alone."""
 
     def restart(self, time_ns: int) -> None:
         """Begin a control period now."""

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "actionlib/action_definition.h"
+#include "actionlib/enclosure_deleter.h"
 #include "actionlib/goal_id_generator.h"
 
 namespace actionlib {

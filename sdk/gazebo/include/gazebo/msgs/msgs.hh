@@ -217,6 +217,41 @@ class WorldStatistics {
   void Clear() { *this = WorldStatistics(); }
 };
 
+class LaserScan {
+  TRUNDLE_FIELD(std::string, frame)
+  TRUNDLE_MESSAGE(Pose, world_pose)
+  TRUNDLE_FIELD(double, angle_min)
+  TRUNDLE_FIELD(double, angle_max)
+  TRUNDLE_FIELD(double, angle_step)
+  TRUNDLE_FIELD(double, range_min)
+  TRUNDLE_FIELD(double, range_max)
+  TRUNDLE_FIELD(uint32_t, count)
+  TRUNDLE_FIELD(double, vertical_angle_min)
+  TRUNDLE_FIELD(double, vertical_angle_max)
+  TRUNDLE_FIELD(double, vertical_angle_step)
+  TRUNDLE_FIELD(uint32_t, vertical_count)
+  TRUNDLE_FIELDS(double, ranges)
+  TRUNDLE_FIELDS(double, intensities)
+
+ public:
+  void Clear() { *this = LaserScan(); }
+};
+
+class LaserScanStamped {
+  TRUNDLE_MESSAGE(Time, time)
+  TRUNDLE_MESSAGE(LaserScan, scan)
+
+ public:
+  void Clear() { *this = LaserScanStamped(); }
+};
+
+class Vector3d_V {
+  TRUNDLE_MESSAGES(Vector3d, vector3)
+
+ public:
+  void Clear() { *this = Vector3d_V(); }
+};
+
 inline void Set(Vector3d* to, const ignition::math::Vector3d& v) {
   to->set_x(v.X());
   to->set_y(v.Y());
@@ -299,6 +334,8 @@ typedef boost::shared_ptr<GzString_V> GzString_VPtr;
 typedef boost::shared_ptr<PID> PIDPtr;
 typedef boost::shared_ptr<JointCmd> JointCmdPtr;
 typedef boost::shared_ptr<WorldStatistics> WorldStatisticsPtr;
+typedef boost::shared_ptr<LaserScan> LaserScanPtr;
+typedef boost::shared_ptr<LaserScanStamped> LaserScanStampedPtr;
 
 }  // namespace msgs
 }  // namespace gazebo
@@ -326,5 +363,7 @@ typedef const boost::shared_ptr<const gazebo::msgs::GzString_V> ConstGzString_VP
 typedef const boost::shared_ptr<const gazebo::msgs::PID> ConstPIDPtr;
 typedef const boost::shared_ptr<const gazebo::msgs::JointCmd> ConstJointCmdPtr;
 typedef const boost::shared_ptr<const gazebo::msgs::WorldStatistics> ConstWorldStatisticsPtr;
+typedef const boost::shared_ptr<const gazebo::msgs::LaserScan> ConstLaserScanPtr;
+typedef const boost::shared_ptr<const gazebo::msgs::LaserScanStamped> ConstLaserScanStampedPtr;
 
 #endif

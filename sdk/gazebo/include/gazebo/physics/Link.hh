@@ -96,6 +96,9 @@ class Link : public Entity {
   math::Vector3 GetRelativeForce() const { return RelativeForce(); }
   math::Vector3 GetRelativeTorque() const { return RelativeTorque(); }
 
+  // "none": its collisions touch nothing; "all": they do again. Other modes are not known.
+  void SetCollideMode(const std::string& mode);
+
  private:
   friend struct Builder;
   friend class Joint;

@@ -55,6 +55,9 @@ class Model : public Entity {
   void AttachStaticModel(ModelPtr& model, ignition::math::Pose3d offset);
   void DetachStaticModel(const std::string& model);
 
+  // Of all links; see Link.
+  void SetCollideMode(const std::string& mode);
+
  private:
   friend struct Builder;
   friend class World;

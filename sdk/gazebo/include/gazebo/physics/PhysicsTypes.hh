@@ -37,6 +37,7 @@ class PhysicsEngine;
 class Shape;
 class SphereShape;
 class SurfaceParams;
+class MultiRayShape;
 class World;
 
 typedef boost::shared_ptr<Base> BasePtr;
@@ -58,6 +59,7 @@ typedef boost::shared_ptr<Shape> ShapePtr;
 typedef boost::shared_ptr<SphereShape> SphereShapePtr;
 typedef boost::shared_ptr<SurfaceParams> SurfaceParamsPtr;
 typedef boost::shared_ptr<World> WorldPtr;
+typedef boost::shared_ptr<MultiRayShape> MultiRayShapePtr;
 typedef boost::weak_ptr<World> WorldWeakPtr;
 typedef boost::weak_ptr<Model> ModelWeakPtr;
 

@@ -10,6 +10,7 @@
 #include <sdf/sdf.hh>
 
 #include <gazebo/trundle_host.h>
+#include <gazebo/common/SphericalCoordinates.hh>
 #include <gazebo/common/Time.hh>
 #include <gazebo/common/UpdateInfo.hh>
 #include <gazebo/physics/Model.hh>
@@ -36,6 +37,9 @@ class World : public boost::enable_shared_from_this<World> {
   ignition::math::Vector3d Gravity() const;
   void SetGravity(const ignition::math::Vector3d& gravity);
 
+  // As in the file; null without <spherical_coordinates>.
+  common::SphericalCoordinatesPtr SphericalCoords() const { return spherical_coordinates_; }
+
   unsigned int ModelCount() const { return static_cast<unsigned int>(models_.size()); }
   ModelPtr ModelByIndex(unsigned int index) const { return index < models_.size() ? models_[index] : ModelPtr(); }
   // Null where there is none; so are the next two.
@@ -58,6 +62,7 @@ class World : public boost::enable_shared_from_this<World> {
   common::Time GetStartTime() const { return StartTime(); }
   uint32_t GetIterations() const { return static_cast<uint32_t>(Iterations()); }
   bool GetRunning() const { return Running(); }
+  common::SphericalCoordinatesPtr GetSphericalCoordinates() const { return spherical_coordinates_; }
   PhysicsEnginePtr GetPhysicsEngine() const { return Physics(); }
   unsigned int GetModelCount() const { return ModelCount(); }
   ModelPtr GetModel(unsigned int index) const { return ModelByIndex(index); }
@@ -83,6 +88,7 @@ class World : public boost::enable_shared_from_this<World> {
   PhysicsEnginePtr physics_;
   Model_V models_;
   Joint_V made_joints_;
+  common::SphericalCoordinatesPtr spherical_coordinates_;
   common::Time real_time_, start_time_;
   common::UpdateInfo update_info_;
   int64_t last_time_ns_;

@@ -3,14 +3,22 @@
 
 #include <memory>
 
+#include <boost/shared_ptr.hpp>
+
 namespace gazebo {
 namespace rendering {
 
 class Visual;
 class Scene;
 class DynamicLines;
+class Camera;
+class DepthCamera;
+class Distortion;
 typedef std::shared_ptr<Visual> VisualPtr;
 typedef std::shared_ptr<Scene> ScenePtr;
+typedef boost::shared_ptr<Camera> CameraPtr;
+typedef boost::shared_ptr<DepthCamera> DepthCameraPtr;
+typedef boost::shared_ptr<Distortion> DistortionPtr;
 enum RenderOpType { RENDERING_POINT_LIST = 0, RENDERING_LINE_LIST = 1, RENDERING_LINE_STRIP = 2 };
 
 }  // namespace rendering

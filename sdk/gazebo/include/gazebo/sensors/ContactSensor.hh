@@ -1,2 +1,39 @@
-#error \
-    "Trundle's kit has no sensor plugins in C++: the sensor's plugin of gazebo_ros publishes its readings, and a node reads them"
+#ifndef GAZEBO_SENSORS_CONTACTSENSOR_HH_
+#define GAZEBO_SENSORS_CONTACTSENSOR_HH_
+
+#include <string>
+#include <vector>
+
+#include <gazebo/msgs/msgs.hh>
+#include <gazebo/sensors/Sensor.hh>
+
+namespace gazebo {
+namespace sensors {
+
+// Contacts of the sensor's collisions at the last reading.
+class ContactSensor : public Sensor {
+ public:
+  ContactSensor() : Sensor(OTHER) {}
+
+  msgs::Contacts Contacts() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return contacts_;
+  }
+  msgs::Contacts GetContacts() const { return Contacts(); }
+  unsigned int GetCollisionCount() const { return static_cast<unsigned int>(collisions_.size()); }
+  std::string GetCollisionName(unsigned int index) const { return collisions_.at(index); }
+  unsigned int GetCollisionContactCount(const std::string& collision) const;
+
+ protected:
+  void Read(const sdf::ElementPtr& sdf) override;
+  void Set(const TrundleGazeboReading& reading) override;
+
+ private:
+  std::vector<std::string> collisions_;
+  msgs::Contacts contacts_;
+};
+
+}  // namespace sensors
+}  // namespace gazebo
+
+#endif

@@ -1,2 +1,22 @@
-#error \
-    "Trundle's kit has no sensor plugins in C++: the sensor's plugin of gazebo_ros publishes its readings, and a node reads them"
+#ifndef GAZEBO_SENSORS_DEPTHCAMERASENSOR_HH_
+#define GAZEBO_SENSORS_DEPTHCAMERASENSOR_HH_
+
+#include <gazebo/rendering/DepthCamera.hh>
+#include <gazebo/sensors/CameraSensor.hh>
+
+namespace gazebo {
+namespace sensors {
+
+class DepthCameraSensor : public CameraSensor {
+ public:
+  DepthCameraSensor() : CameraSensor(rendering::CameraPtr(new rendering::DepthCamera)) {}
+
+  rendering::DepthCameraPtr DepthCamera() const { return boost::static_pointer_cast<rendering::DepthCamera>(camera_); }
+  rendering::DepthCameraPtr GetDepthCamera() const { return DepthCamera(); }
+  const float* DepthData() const { return DepthCamera()->DepthData(); }
+};
+
+}  // namespace sensors
+}  // namespace gazebo
+
+#endif

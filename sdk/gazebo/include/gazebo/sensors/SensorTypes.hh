@@ -10,8 +10,29 @@ namespace gazebo {
 namespace sensors {
 
 class Sensor;
+class RaySensor;
+class GpuRaySensor;
+class CameraSensor;
+class DepthCameraSensor;
+class MultiCameraSensor;
+class ImuSensor;
+class ContactSensor;
+class GpsSensor;
+class SonarSensor;
+class ForceTorqueSensor;
 typedef std::shared_ptr<Sensor> SensorPtr;
+typedef std::shared_ptr<RaySensor> RaySensorPtr;
+typedef std::shared_ptr<GpuRaySensor> GpuRaySensorPtr;
+typedef std::shared_ptr<CameraSensor> CameraSensorPtr;
+typedef std::shared_ptr<DepthCameraSensor> DepthCameraSensorPtr;
+typedef std::shared_ptr<ImuSensor> ImuSensorPtr;
+typedef std::shared_ptr<ContactSensor> ContactSensorPtr;
+typedef std::shared_ptr<GpsSensor> GpsSensorPtr;
+typedef std::shared_ptr<SonarSensor> SonarSensorPtr;
+typedef std::shared_ptr<ForceTorqueSensor> ForceTorqueSensorPtr;
 typedef std::vector<SensorPtr> Sensor_V;
+
+enum SensorCategory { IMAGE = 0, RAY = 1, OTHER = 2, CATEGORY_COUNT = 3 };
 
 }  // namespace sensors
 }  // namespace gazebo

@@ -2,6 +2,9 @@
 
 from collections.abc import Callable, Sequence
 
+import numpy as np
+from numpy.typing import NDArray
+
 from trundle.sim.physics import MotorBank, StepAction
 
 class PluginHost(StepAction):
@@ -62,6 +65,30 @@ class PluginHost(StepAction):
 
     def reset(self, plugin: int) -> None:
         """Call a plugin's Reset; 0: clear the commands of all."""
+
+    def wants_reading(self, plugin: int) -> bool:
+        """Return whether anybody wants readings of a sensor's plugin."""
+
+    def take_reading(
+        self,
+        plugin: int,
+        time_ns: int,
+        values: NDArray[np.float64],
+        image: NDArray[np.uint8] | None,
+        depths: NDArray[np.float32] | None,
+        contacts: Sequence[tuple[str, str, Sequence[float]]],
+    ) -> None:
+        """Give a sensor's plugin a reading.
+
+        Args:
+            plugin: number of the plugin.
+            time_ns: time of the reading [ns].
+            values: (N,) numbers of the sensor's kind; see `trundle_host.h`.
+            image: (height, width, 3) colors of a camera.
+            depths: (height, width) depths [m]; NaN where nothing is in reach.
+            contacts: both collisions as `model::link::collision`, and position, normal into the first, force on the
+                first and depth of each point: ten numbers.
+        """
 
     def close(self) -> None:
         """Destroy all plugins."""

@@ -3,7 +3,7 @@
 import math
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Self
 from weakref import WeakKeyDictionary, finalize, ref
 
 from trundle.base.diagnostics import DescriptionError, Source, TrundleError
@@ -16,6 +16,9 @@ from .elements import elements_of, model_elements, world_elements
 from .requests import perform
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from trundle.ros import Node
 
 _FUNCTIONS = ("mj_kinematics", "mj_comPos", "mj_comVel", "mj_contactForce")
@@ -73,6 +76,23 @@ class CompiledPlugins:
             raise DescriptionError(tag.at, what, "compiled-plugin") from None
         self._finish_calls()
         return number
+
+    def wants_reading(self, number: int) -> bool:
+        """Return whether a sensor's plugin wants readings."""
+        return self._host.wants_reading(number)
+
+    def give_reading(
+        self,
+        number: int,
+        time_ns: int,
+        values: "NDArray[np.float64]",
+        image: "NDArray[np.uint8] | None",
+        depths: "NDArray[np.float32] | None",
+        contacts: list[Any],
+    ) -> None:
+        """Give a sensor's plugin a reading; see `PluginHost.take_reading`."""
+        self._host.take_reading(number, time_ns, values, image, depths, contacts)
+        self._finish_calls()
 
     def _reset_world(self) -> None:
         self.reset(0)
@@ -162,6 +182,11 @@ _PLUGINS: WeakKeyDictionary[Simulation, CompiledPlugins] = WeakKeyDictionary()
 
 def _first_line(error: Exception) -> str:
     return str(error).splitlines()[0] if str(error) else type(error).__name__
+
+
+def start_ros(library: int, node: "Node") -> None:
+    """Let an opened library use ROS: this process becomes a node of roscpp."""
+    PluginHost.start_ros(library, node.master_uri, _NODE)
 
 
 def _close(host: PluginHost) -> None:

@@ -9,7 +9,7 @@ from trundle.sim.simulation import JointHandle
 
 from .transmissions import Interface
 
-_INTERFACE_NUMBERS: dict[Interface, int] = {
+INTERFACE_NUMBERS: dict[Interface, int] = {
     "EffortJointInterface": 0,
     "VelocityJointInterface": 1,
     "PositionJointInterface": 2,
@@ -34,7 +34,7 @@ class JointHardware(ServoJoint):
         range_ = axis.lower, axis.upper
         super().__init__(
             handle.motor,
-            _INTERFACE_NUMBERS[interface],
+            INTERFACE_NUMBERS[interface],
             pid,
             lag_s=lag_s,
             range=range_,

@@ -1,8 +1,10 @@
 """controller_manager: services that load, switch and unload controllers."""
 
 import math
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from trundle.robots.parameters import ParamError, RosParameters
@@ -10,8 +12,11 @@ from trundle.ros import Message, Node
 from trundle.sim.control import Servo
 from trundle.sim.simulation import ModelHandle
 
+from ._compiled_control import CompiledRobot
 from .catalog import CONTROLLERS, find_controller
+from .compiled import CompiledController, CompiledRobots
 from .controller import Controller, ControllerContext, InStepController
+from .exported_class import ExportedClass, exported_classes
 from .hardware import Hardware
 
 if TYPE_CHECKING:
@@ -32,7 +37,17 @@ class _Loaded:
 class ControllerManager:
     """Services `<robot>/controller_manager/…`, all on the simulation's thread."""
 
-    def __init__(self, node: Node, namespace: str, hardware: Hardware, servo: Servo, model: ModelHandle) -> None:
+    def __init__(
+        self,
+        node: Node,
+        namespace: str,
+        hardware: Hardware,
+        servo: Servo,
+        model: ModelHandle,
+        *,
+        robot: CompiledRobot | None = None,
+        world_file: str = "",
+    ) -> None:
         """Advertise.
 
         Args:
@@ -41,8 +56,13 @@ class ControllerManager:
             hardware: robot's joints.
             servo: runner of the controllers' laws.
             model: robot's model.
+            robot: hardware in C++, if the robot has its own.
+            world_file: file of the world; packages of its workspace may have controllers in C++.
         """
         self._node = node
+        self._robots = CompiledRobots(hardware, robot)
+        self._files = [Path(model.model.at.file), Path(world_file)]
+        self._exported: dict[str, ExportedClass] | None = None
         self._namespace = namespace.rstrip("/")
         self._hardware = hardware
         self._model = model
@@ -54,10 +74,16 @@ class ControllerManager:
             ("load_controller", "LoadController", lambda request: {"ok": self._load(request.name)}),
             ("unload_controller", "UnloadController", lambda request: {"ok": self._unload(request.name)}),
             ("switch_controller", "SwitchController", lambda request: {"ok": self._switch(request)}),
-            ("reload_controller_libraries", "ReloadControllerLibraries", lambda _: {"ok": True}),
+            ("reload_controller_libraries", "ReloadControllerLibraries", lambda _: {"ok": self._reload()}),
         )
         for name, kind, handler in services:
             node.advertise_service(f"{self._namespace}/controller_manager/{name}", f"{_PACKAGE}/{kind}", handler)
+
+    def begin_stride(self) -> None:
+        """Let the controllers in C++ act again at times that they have acted at."""
+        for controller in self._running:
+            if isinstance(controller, CompiledController):
+                controller.begin_stride()
 
     def update(self, time_ns: int, dt: float) -> None:
         """Update every running controller, after the laws."""
@@ -87,7 +113,7 @@ class ControllerManager:
         return [loaded.controller for loaded in self._loaded.values() if loaded.state == "running"]
 
     def _types(self, _request: "controller_manager_msgs.ListControllerTypesRequest") -> dict[str, Any]:
-        names = sorted(CONTROLLERS)
+        names = sorted({*CONTROLLERS, *self._find_exported()})
         return {"types": names, "base_classes": ["controller_interface::ControllerBase"] * len(names)}
 
     def _list(self, _request: "controller_manager_msgs.ListControllersRequest") -> dict[str, Any]:
@@ -130,11 +156,36 @@ class ControllerManager:
             model=self._model,
         )
         try:
-            controller = find_controller(kind).create(context)
+            controller = self._make(kind, context)
         except ParamError as error:
             self._node.log.error(f"Could not load controller '{name}': {error}")
             return False
         self._loaded[name] = _Loaded(name=name, type=kind, controller=controller)
+        return True
+
+    def _make(self, kind: str, context: ControllerContext) -> Controller:
+        """Return a controller: a package's compiled one, else one of Trundle's.
+
+        Raises:
+            ParamError: it cannot be made.
+        """
+        if kind not in CONTROLLERS:
+            self._exported = None  # it may have been compiled since
+        found = self._find_exported().get(kind)
+        if found is None or (found.library is None and kind in CONTROLLERS):
+            return find_controller(kind).create(context)
+        controller = CompiledController(context, self._robots, found)
+        self._node.log.info(f"controller {context.name}: {found.library}, in C++")
+        return controller
+
+    def _find_exported(self) -> dict[str, ExportedClass]:
+        """Return the controllers that packages export; they are looked for once, or after a reload of the libraries."""
+        if self._exported is None:
+            self._exported = exported_classes("controller_interface", os.environ, self._files)
+        return self._exported
+
+    def _reload(self) -> bool:
+        self._exported = None
         return True
 
     def _unload(self, name: str) -> bool:
@@ -156,9 +207,8 @@ class ControllerManager:
         stops, starts = (
             [str(name) for name in names] for names in (request.stop_controllers, request.start_controllers)
         )
-        errors = [
-            self._switch_error(name, state) for names, state in ((stops, "running"), (starts, "")) for name in names
-        ]
+        errors = [self._switch_error(name, "running") for name in stops]
+        errors += [self._switch_error(name, "") for name in starts if name not in stops]
         for error in filter(None, errors):
             self._node.log.error(error)
         if strict and any(errors):

@@ -11,10 +11,12 @@ from trundle.sim.control import Servo
 from trundle.sim.simulation import ModelHandle, Simulation
 
 from ..plugin import Plugin
+from ._compiled_control import CompiledRobot
 from .controller import Endpoints
 from .gains import reconfigurable_pid
 from .hardware import JointHardware
 from .manager import ControllerManager
+from .robot_hardware import connect_joints, find_hardware, load_hardware
 from .transmissions import read_transmissions
 
 _DEFAULT_SIM = "gazebo_ros_control/DefaultRobotHWSim"
@@ -26,8 +28,9 @@ _LEGACY_PARAMETER = "legacyModeNS"
 class GazeboRosControl(Plugin):
     """Reads the transmissions of `robotParam`, and runs a controller_manager in `robotNamespace`.
 
-    Parameters: <robotNamespace> (the model's name), <robotParam> (robot_description), <robotSimType> (only
-    gazebo_ros_control/DefaultRobotHWSim), <controlPeriod> [s] (the step), <eStopTopic>. A joint with gains on
+    Parameters: <robotNamespace> (the model's name), <robotParam> (robot_description), <robotSimType>
+    (gazebo_ros_control/DefaultRobotHWSim, or a RobotHWSim in C++ that a package exports), <controlPeriod> [s] (the
+    step), <eStopTopic>. Controllers are Trundle's, or those in C++ that packages export. A joint with gains on
     `gazebo_ros_control/pid_gains/<joint>` gets their efforts; others are driven by a stiff motor. Efforts are added to
     the other plugins' efforts on the joint; the later of two speeds counts; a position overrides both.
     """
@@ -39,9 +42,15 @@ class GazeboRosControl(Plugin):
         self._node = node
         self._namespace = "/" + parameters.text("robotNamespace", model.name).strip("/")
         self._param = parameters.text("robotParam", "robot_description")
-        kind = parameters.text("robotSimType", _DEFAULT_SIM)
-        if kind != _DEFAULT_SIM:
-            parameters.warn(f"robotSimType {kind!r} is compiled code; {_DEFAULT_SIM} replaces it")
+        kind = parameters.text("robotSimType", _DEFAULT_SIM) or _DEFAULT_SIM
+        self._tag = tag
+        self._robot_class = None if kind == _DEFAULT_SIM else find_hardware(kind, sim, model)
+        if kind != _DEFAULT_SIM and self._robot_class is None:
+            parameters.warn(
+                f"robotSimType {kind!r}: no package exports it in a library that Trundle's kit has compiled, as "
+                f"catkin_make does; {_DEFAULT_SIM} replaces it"
+            )
+        self._robot: CompiledRobot | None = None
         self.period_ns = _period_ns(parameters, sim)
         self._is_stopped = False
         self._held_commands: list[float] = []
@@ -71,6 +80,10 @@ class GazeboRosControl(Plugin):
     def before_step(self, sim: Simulation) -> None:
         """Read joints, update controllers and write commands."""
         servo, joints = self._servo, self._hardware.values()
+        if self._robot is not None:
+            self._robot.begin_stride()
+        if self._manager is not None:
+            self._manager.begin_stride()
         dt = servo.read(sim.time_ns, sim.step_ns)
         if dt <= 0.0 or self._manager is None:  # the first step after a reset
             return
@@ -111,6 +124,8 @@ class GazeboRosControl(Plugin):
 
     def _stop(self, is_stopped: bool) -> None:
         self._is_stopped = is_stopped
+        if self._robot is not None:
+            self._robot.stop(is_stopped)
 
     async def _find_robot(self) -> None:
         """Wait for the robot's description, on the loop; then continue on the simulation's thread."""
@@ -130,31 +145,54 @@ class GazeboRosControl(Plugin):
             await asyncio.sleep(_POLL_S)
 
     def _begin(self, urdf: str, name: str, gains: object) -> None:
-        report = self._sim.report
         settings = RosParameters(gains, f"{self._namespace}/gazebo_ros_control/pid_gains")
-        lag_s = self._lag_s
         try:
-            for driven in read_transmissions(urdf, name, report):
-                handle = self._model.joint(driven.name)
-                if not handle.is_driven:
-                    self._node.log.warn(f"joint {driven.name!r} has no axis to drive; its transmission is left out")
-                    continue
-                gains_settings = settings.section(driven.name)
-                has_gains = "p" in gains_settings and driven.interface != "EffortJointInterface"
-                pid = reconfigurable_pid(self._node, gains_settings, self._endpoints) if has_gains else None
-                joint = JointHardware(handle, driven.interface, pid, lag_s=lag_s)
-                joint.read()
-                joint.command = joint.resting_command
-                self._hardware[driven.name] = joint
+            if self._robot_class is None:
+                self._find_joints(urdf, name, settings)
+            else:
+                self._robot = load_hardware(
+                    self._sim,
+                    self._model,
+                    self._node,
+                    self._tag,
+                    self._robot_class,
+                    namespace=self._namespace,
+                    urdf=urdf,
+                )
+                self._hardware = connect_joints(self._robot, self._model, lag_s=self._lag_s)
         except TrundleError as error:
             self._node.log.fatal(f"gazebo_ros_control: {error}; no joint is controlled")
             return
         self._servo = Servo(list(self._hardware.values()))
+        self._servo.set_hardware(self._robot)
         self._servo.longest_ns = self.period_ns  # the state may be older than the last read after a reset is undone
         self._servo.restart(self._sim.time_ns)
         self._sim.on_change(self._rebind)
-        self._manager = ControllerManager(self._node, self._namespace, self._hardware, self._servo, self._model)
+        self._manager = ControllerManager(
+            self._node,
+            self._namespace,
+            self._hardware,
+            self._servo,
+            self._model,
+            robot=self._robot,
+            world_file=self._sim.world.at.file,
+        )
         self._node.log.info(f"Loaded gazebo_ros_control: {len(self._hardware)} joints of {self._namespace}")
+
+    def _find_joints(self, urdf: str, name: str, gains: RosParameters) -> None:
+        """Make the default hardware's joints."""
+        for driven in read_transmissions(urdf, name, self._sim.report):
+            handle = self._model.joint(driven.name)
+            if not handle.is_driven:
+                self._node.log.warn(f"joint {driven.name!r} has no axis to drive; its transmission is left out")
+                continue
+            settings = gains.section(driven.name)
+            has_gains = "p" in settings and driven.interface != "EffortJointInterface"
+            pid = reconfigurable_pid(self._node, settings, self._endpoints) if has_gains else None
+            joint = JointHardware(handle, driven.interface, pid, lag_s=self._lag_s)
+            joint.read()
+            joint.command = joint.resting_command
+            self._hardware[driven.name] = joint
 
     @property
     def _lag_s(self) -> float:

@@ -1,0 +1,86 @@
+// Plugin of any sensor: prints its first reading after 0.3 s.
+#include <cmath>
+#include <string>
+
+#include <gazebo/common/common.hh>
+#include <gazebo/gazebo.hh>
+#include <gazebo/physics/physics.hh>
+#include <gazebo/sensors/sensors.hh>
+#include <gazebo/transport/transport.hh>
+
+namespace gazebo {
+
+class Sense : public SensorPlugin {
+ public:
+  void Load(sensors::SensorPtr sensor, sdf::ElementPtr sdf) override {
+    sensor_ = sensor;
+    word_ = sdf->Get<std::string>("word");
+    if (auto camera = std::dynamic_pointer_cast<sensors::CameraSensor>(sensor))
+      image_ = camera->Camera()->ConnectNewImageFrame([this](const unsigned char* image, unsigned int width,
+                                                             unsigned int height, unsigned int depth,
+                                                             const std::string& format) {
+        const unsigned char* middle = image + (height / 2 * width + width / 2) * depth;
+        picture_ = std::to_string(width) + "x" + std::to_string(height) + " " + format + " " +
+                   (middle[0] > 2 * middle[depth - 1] ? "red" : "other");
+      });
+    if (auto depth = std::dynamic_pointer_cast<sensors::DepthCameraSensor>(sensor))
+      depths_ = depth->DepthCamera()->ConnectNewDepthFrame(
+          [this](const float* depths, unsigned int width, unsigned int height, unsigned int, const std::string&) {
+            depth_ = depths[height / 2 * width + width / 2];
+          });
+    if (auto ray = std::dynamic_pointer_cast<sensors::RaySensor>(sensor)) {
+      node_ = transport::NodePtr(new transport::Node());
+      node_->Init(sensor->WorldName());
+      scans_ = node_->Subscribe(sensor->Topic(), &Sense::OnScan, this);
+    }
+    updated_ = sensor->ConnectUpdated([this] { OnUpdate(); });
+    sensor->SetActive(true);
+  }
+
+ private:
+  void OnScan(ConstLaserScanStampedPtr& message) { scanned_ = message->scan().ranges_size(); }
+
+  void OnUpdate() {
+    if (is_told_ || sensor_->LastMeasurementTime() < common::Time(0.3)) return;
+    is_told_ = true;
+    gzmsg << word_ << " " << sensor_->Name() << " of " << sensor_->ParentName() << ": " << Reading() << std::endl;
+  }
+
+  std::string Reading() {
+    char text[200] = "";
+    if (auto ray = std::dynamic_pointer_cast<sensors::RaySensor>(sensor_))
+      std::snprintf(text, sizeof(text), "%d rays from %.2f to %.2f, middle %.3f, topic %d", ray->RayCount(),
+                    ray->AngleMin().Radian(), ray->AngleMax().Radian(), ray->Range(ray->RayCount() / 2), scanned_);
+    else if (auto imu = std::dynamic_pointer_cast<sensors::ImuSensor>(sensor_))
+      std::snprintf(text, sizeof(text), "%.2f", imu->LinearAcceleration().Z());
+    else if (auto gps = std::dynamic_pointer_cast<sensors::GpsSensor>(sensor_))
+      std::snprintf(text, sizeof(text), "%.3f %.3f", gps->Latitude().Degree(), gps->Altitude());
+    else if (auto sonar = std::dynamic_pointer_cast<sensors::SonarSensor>(sensor_))
+      std::snprintf(text, sizeof(text), "%.2f of %.1f", sonar->Range(), sonar->RangeMax());
+    else if (auto contact = std::dynamic_pointer_cast<sensors::ContactSensor>(sensor_)) {
+      double force = 0.0;
+      const msgs::Contacts contacts = contact->Contacts();
+      for (int i = 0; i < contacts.contact_size(); ++i)
+        for (int k = 0; k < contacts.contact(i).wrench_size(); ++k)
+          force += contacts.contact(i).wrench(k).body_1_wrench().force().z();
+      std::snprintf(text, sizeof(text), "%.1f N with %s", force,
+                    contacts.contact_size() ? contacts.contact(0).collision2().c_str() : "nothing");
+    } else if (sensor_->Type() == "depth")
+      std::snprintf(text, sizeof(text), "%s, depth %.2f", picture_.c_str(), depth_);
+    else if (sensor_->Type() == "camera") std::snprintf(text, sizeof(text), "%s", picture_.c_str());
+    return text;
+  }
+
+  sensors::SensorPtr sensor_;
+  std::string word_, picture_;
+  float depth_ = 0.0f;
+  int scanned_ = 0;
+  bool is_told_ = false;
+  transport::NodePtr node_;
+  transport::SubscriberPtr scans_;
+  event::ConnectionPtr updated_, image_, depths_;
+};
+
+GZ_REGISTER_SENSOR_PLUGIN(Sense)
+
+}  // namespace gazebo

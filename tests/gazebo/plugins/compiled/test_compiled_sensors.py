@@ -1,0 +1,68 @@
+"""Sensors' plugins in C++, which get what the simulation measures."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+from pathlib import Path
+
+import pytest
+from tests.graphs import running_graph
+
+from trundle.base.diagnostics import UsageError
+from trundle.ros.sdk import find_toolchain
+
+pytestmark = pytest.mark.slow
+_SOURCE = Path(__file__).parents[3] / "data/gazebo_plugins/sense"
+_WAIT_S = 600
+
+
+def _run(*words: str, cwd: Path, **variables: str) -> str:
+    path = os.pathsep.join([sysconfig.get_path("scripts"), os.environ["PATH"]])
+    left_out = ("GAZEBO_PLUGIN_PATH", "CMAKE_PREFIX_PATH", "LD_LIBRARY_PATH", "ROS_MASTER_URI")
+    kept = {name: value for name, value in os.environ.items() if name not in left_out}
+    done = subprocess.run(
+        [sys.executable, "-m", "trundle", *words],
+        cwd=cwd,
+        env={**kept, "PATH": path, "PWD": str(cwd), **variables},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=_WAIT_S,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout + done.stderr
+
+
+def test_each_kind_of_sensor_gives_its_readings(tmp_path: Path) -> None:
+    """A red wall 1.8 m ahead of a box of 2 kg on the ground, and a box that SetCollideMode lets fall."""
+    try:
+        find_toolchain(os.environ)
+    except UsageError as error:
+        pytest.skip(str(error))
+    folder = tmp_path / "sense"
+    shutil.copytree(_SOURCE, folder)
+    _run("shell", "-c", "cmake -S . -B build && cmake --build build", cwd=folder)
+
+    with running_graph() as graph:
+        words = ("run", "sense.world", "--headless", "--duration", "1", "--speed", "max")
+        output = _run(*words, cwd=folder, ROS_MASTER_URI=graph.core.uri)
+
+    seen = dict(re.findall(r"seen (\w+) of box::body: (.*)", output))
+    assert seen == {
+        "lidar": "5 rays from -0.20 to 0.20, middle 1.800, topic 5",
+        "imu": "9.80",
+        "gps": "47.000 400.500",
+        "sonar": seen.get("sonar", "nothing"),
+        "bumper": seen.get("bumper", "nothing"),
+        "eye": "64x48 R8G8B8 red",
+        "deep": "64x48 R8G8B8 red, depth 1.80",
+    }, output
+    assert re.fullmatch(r"1\.\d\d of 5\.0", seen["sonar"])
+    force = re.fullmatch(r"(\d+\.\d) N with ground_plane::link::collision", seen["bumper"])
+    assert force is not None, seen["bumper"]
+    assert float(force[1]) == pytest.approx(2 * 9.8, abs=1.0)
+    fallen = re.search(r"ghost stands at x \S+, y \S+, z (\S+)", output)
+    assert fallen is None or float(fallen[1]) < -1.0
