@@ -24,6 +24,7 @@ bool are_finite(const double* values, int count) {
   return std::all_of(values, values + count, [](double value) { return std::isfinite(value); });
 }
 
+constexpr double kUnreachable = -1e6;                // [m]
 constexpr int kCounts[] = {6, 7, 6, 1, 1, 1, 2, 1};  // numbers of each command
 
 }  // namespace
@@ -49,7 +50,7 @@ void PluginWorld::bind(mjModel* m, mjData* d, std::shared_ptr<MotorBank> bank,
                        const std::vector<std::pair<std::string, std::vector<BoundAxis>>>& joints,
                        std::vector<std::string> collisions) {
   const std::scoped_lock lock(names_mutex_, copies_mutex_);
-  if (m != m_) contact_bits_.clear();
+  if (m != m_) pair_margins_.clear();
   m_ = m;
   d_ = d;
   bank_ = std::move(bank);
@@ -115,7 +116,7 @@ void PluginWorld::end() {
 }
 
 void PluginWorld::clear_commands() {
-  restore_contact_bits();
+  restore_margins();
   for (Link& link : links_) link.pending = {}, link.is_applied = false;
   for (Joint& joint : joints_)
     for (Axis& axis : joint.axes) axis.mode = Mode::kNone, axis.effort = axis.last_effort = 0.0;
@@ -291,24 +292,24 @@ bool PluginWorld::write_link(Link& link, const Write& write) {
   return true;
 }
 
+// Pairs of geoms that may touch are listed in the model; with a margin that no distance reaches they do not.
 bool PluginWorld::set_collides(Link& link, bool collides) {
   const std::string prefix = link.name + "::";
-  for (int geom = 0; geom < m_->ngeom; ++geom) {
-    if (collisions_[static_cast<std::size_t>(geom)].compare(0, prefix.size(), prefix) != 0) continue;
-    const auto [at, is_new] = contact_bits_.try_emplace(geom, m_->geom_contype[geom], m_->geom_conaffinity[geom]);
-    m_->geom_contype[geom] = collides ? at->second.first : 0;
-    m_->geom_conaffinity[geom] = collides ? at->second.second : 0;
+  const auto is_part = [&](int geom) {
+    return geom >= 0 && collisions_[static_cast<std::size_t>(geom)].compare(0, prefix.size(), prefix) == 0;
+  };
+  for (int pair = 0; pair < m_->npair; ++pair) {
+    if (!is_part(m_->pair_geom1[pair]) && !is_part(m_->pair_geom2[pair])) continue;
+    const auto [at, is_new] = pair_margins_.try_emplace(pair, m_->pair_margin[pair]);
+    m_->pair_margin[pair] = collides ? at->second : kUnreachable;
   }
   if (m_->body_dofnum[link.body] > 0) moved(m_->body_dofadr[link.body]);
   return true;
 }
 
-void PluginWorld::restore_contact_bits() {
-  for (const auto& [geom, bits] : contact_bits_) {
-    m_->geom_contype[geom] = bits.first;
-    m_->geom_conaffinity[geom] = bits.second;
-  }
-  contact_bits_.clear();
+void PluginWorld::restore_margins() {
+  for (const auto& [pair, margin] : pair_margins_) m_->pair_margin[pair] = margin;
+  pair_margins_.clear();
 }
 
 bool PluginWorld::write_axis(Axis& axis, const Write& write) {

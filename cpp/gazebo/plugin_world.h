@@ -116,7 +116,7 @@ class PluginWorld {
   bool write_now(const Write& write);
   bool write_link(Link& link, const Write& write);
   bool set_collides(Link& link, bool collides);
-  void restore_contact_bits();
+  void restore_margins();
   bool write_axis(Axis& axis, const Write& write);
   void synchronize(int dof);
   void moved(int dof);
@@ -133,8 +133,8 @@ class PluginWorld {
   std::unordered_map<std::string, int> link_numbers_, joint_numbers_;
   std::vector<Link> links_;
   std::vector<Joint> joints_;
-  std::vector<std::string> collisions_;                        // `model::link::collision` of each geom
-  std::unordered_map<int, std::pair<int, int>> contact_bits_;  // contype and conaffinity of changed geoms
+  std::vector<std::string> collisions_;           // `model::link::collision` of each geom
+  std::unordered_map<int, double> pair_margins_;  // of pairs that do not touch, as they were
   std::vector<int> touched_links_;
   std::vector<std::pair<int, int>> touched_axes_;
   std::vector<double> qvel_;

@@ -65,4 +65,5 @@ def test_each_kind_of_sensor_gives_its_readings(tmp_path: Path) -> None:
     assert force is not None, seen["bumper"]
     assert float(force[1]) == pytest.approx(2 * 9.8, abs=1.0)
     fallen = re.search(r"ghost stands at x \S+, y \S+, z (\S+)", output)
-    assert fallen is None or float(fallen[1]) < -1.0
+    assert fallen is not None, output
+    assert float(fallen[1]) == pytest.approx(0.5 - 9.8 * 0.8**2 / 2, abs=0.05)
