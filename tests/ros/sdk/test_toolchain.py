@@ -1,5 +1,8 @@
 """What a build says about a machine without compiler, about another build, and about targets that fail."""
 
+import importlib.util
+import os
+import subprocess
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -10,12 +13,14 @@ from trundle.base.diagnostics import UsageError
 from trundle.base.file_lock import FileLock
 from trundle.ros.sdk import Toolchain, compiled_kit, find_toolchain, kit_sources
 from trundle.ros.sdk.kit import _digest
-from trundle.ros.sdk.package_build import _cmake_error, _failures
+from trundle.ros.sdk.package_build import _cmake_error, _failures, _forget_other_compiler
+from trundle.ros.sdk.zig import zig_definitions, zig_tools
 
 
 def test_without_a_compiler_a_sentence_says_what_to_install(tmp_path: Path) -> None:
-    with pytest.raises(UsageError, match="there is no C\\+\\+ compiler; "):
-        find_toolchain({"PATH": str(tmp_path)})
+    if importlib.util.find_spec("ziglang") is None:
+        with pytest.raises(UsageError, match=r"there is no C\+\+ compiler; .*pip install 'trundle\[cpp\]'"):
+            find_toolchain({"PATH": str(tmp_path)})
     with pytest.raises(UsageError, match="CXX names 'cc-of-mine', which is not found"):
         find_toolchain({"PATH": str(tmp_path), "CXX": "cc-of-mine"})
 
@@ -71,3 +76,34 @@ CMake Error at CMakeLists.txt:7 (add_executable):
 CMake Generate step failed.
 """
     assert _cmake_error(text) == "CMakeLists.txt:7: Cannot find source file: src/none.cpp"
+
+
+def test_another_compiler_begins_anew(tmp_path: Path) -> None:
+    cache = tmp_path / "CMakeCache.txt"
+    cache.write_text("A:BOOL=ON\nCMAKE_CXX_COMPILER:STRING=/usr/bin/g++\nB:BOOL=ON\n")
+    (tmp_path / "CMakeFiles").mkdir()
+
+    _forget_other_compiler(tmp_path, "/usr/bin/g++")
+    assert cache.exists()
+    _forget_other_compiler(tmp_path, "/usr/bin/clang++")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_without_a_compiler_zigs_is_taken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    package = tmp_path / "site/ziglang"
+    package.mkdir(parents=True)
+    (package / "__init__.py").touch()
+    (package / "__main__.py").write_text("import sys; print('zig', *sys.argv[1:])")
+    monkeypatch.syspath_prepend(str(package.parent))
+    tools = zig_tools({"XDG_CACHE_HOME": str(tmp_path / "cache")})
+
+    assert tools is not None
+    environment = {**os.environ, "PYTHONPATH": str(package.parent)}
+    done = subprocess.run([tools / "c++", "--version"], env=environment, capture_output=True, text=True, check=True)
+    assert done.stdout == "zig c++ --version\n"
+    assert zig_definitions(str(tools / "c++")) == [
+        f"-DCMAKE_C_COMPILER={tools}/cc",
+        f"-DCMAKE_AR={tools}/ar",
+        f"-DCMAKE_RANLIB={tools}/ranlib",
+    ]
+    assert zig_definitions("/usr/bin/c++") == []

@@ -21,6 +21,7 @@ from . import message_header
 from .headers import Headers
 from .kit_cache import READY, mark_used, note_workspace, trim
 from .toolchain import Toolchain
+from .zig import zig_definitions
 
 _ROOT = Path(message_header.__file__).parents[4]
 _INSTALLED = Path(message_header.__file__).parents[2] / "sdk"
@@ -134,6 +135,7 @@ def _compile(sources: Path, folder: Path, toolchain: Toolchain, environment: Map
         *(f"-DCMAKE_CXX_COMPILER={toolchain.compiler}", f"-DCMAKE_CXX_FLAGS={flags}"),
         *(f"-DTRUNDLE_MESSAGES={folder / 'include'}", f"-DCMAKE_INSTALL_PREFIX={folder}"),
         *([] if toolchain.boost is None else [f"-DTRUNDLE_BOOST={toolchain.boost / 'include'}"]),
+        *zig_definitions(toolchain.compiler),
     ]
     for command in (configure, [toolchain.ninja, "-C", build, "install"]):
         done = subprocess.run(command, env=dict(environment), capture_output=True, text=True, check=False)

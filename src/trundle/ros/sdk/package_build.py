@@ -2,19 +2,23 @@
 
 import os
 import re
+import shutil
 import subprocess
+import sys
 from collections.abc import Generator, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 from .kit import Kit, header_packages
 from .toolchain import Toolchain
+from .zig import zig_definitions
 
 _FAILED = re.compile(r"^FAILED: (?:\[code=\d+\] )?(?P<file>\S+)")
 _OBJECT = re.compile(r"(?:^|/)CMakeFiles/([^/]+)\.dir/")
 _ERROR = re.compile(r"(?:fatal )?error: (?P<text>.+)")
 _UNDEFINED = re.compile(r"undefined reference to (?P<text>.+)")
 _NO_LIBRARY = re.compile(r"cannot find (?P<text>-l[^\s:]+)")
+_COMPILER = re.compile(r"^CMAKE_CXX_COMPILER:\w+=(?P<path>.*)$", re.MULTILINE)
 _CMAKE_ERROR = re.compile(
     r"^CMake Error(?: at (?P<where>[^\s:]+:\d+))?[^\n]*\n(?P<text>(?:[ \t]*\S[^\n]*\n|\n(?=  ))*)", re.MULTILINE
 )
@@ -62,13 +66,13 @@ class PackageBuilder:
         self._build = build
         self._environment = dict(environment)
         cmake = kit.sources / "catkin/cmake"
-        prefixes = [] if toolchain.boost is None else [str(toolchain.boost)]
         self._settings = [
             *("-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={toolchain.ninja}", f"-DCMAKE_CXX_COMPILER={toolchain.compiler}"),
             *(f"-Dcatkin_DIR={cmake}", f"-DCMAKE_PROJECT_INCLUDE={cmake / 'find.cmake'}"),
-            *(f"-DTRUNDLE_SDK={kit.sources}", f"-DTRUNDLE_KIT={kit.folder}"),
+            *(f"-DTRUNDLE_SDK={kit.sources}", f"-DTRUNDLE_KIT={kit.folder}", f"-DTRUNDLE_PYTHON={sys.executable}"),
             *(f"-DTRUNDLE_HEADER_PACKAGES={';'.join(header_packages())}", f"-DTRUNDLE_UNDERLAYS={';'.join(underlays)}"),
-            *(f"-DTRUNDLE_BOOST_PREFIX={toolchain.boost or ''}", f"-DCMAKE_PREFIX_PATH={';'.join(prefixes)}"),
+            *(f"-DTRUNDLE_BOOST_PREFIX={toolchain.boost or ''}", f"-DCMAKE_PREFIX_PATH={';'.join(toolchain.prefixes)}"),
+            *zig_definitions(toolchain.compiler),
             *(f"-DCATKIN_DEVEL_PREFIX={devel}", f"-DCMAKE_INSTALL_PREFIX={install}"),
             *("-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_POLICY_VERSION_MINIMUM=3.5", "-DCMAKE_POLICY_DEFAULT_CMP0054=NEW"),
             *("-Wno-dev", "-Wno-deprecated", "--no-warn-unused-cli", *definitions),
@@ -88,7 +92,11 @@ class PackageBuilder:
         build = self._build / name
         missing = build / "trundle_missing.txt"
         missing.unlink(missing_ok=True)
-        code, text = yield from self._run([self._toolchain.cmake, "-S", str(folder), "-B", str(build), *self._settings])
+        _forget_other_compiler(build, self._toolchain.compiler)
+        is_tested = any(target == "tests" or target.startswith("run_tests") for target in targets)
+        configure = [self._toolchain.cmake, "-S", str(folder), "-B", str(build)]
+        configure.append(f"-DCATKIN_ENABLE_TESTING={'ON' if is_tested else 'OFF'}")
+        code, text = yield from self._run([*configure, *self._settings])
         lacks = tuple(dict.fromkeys(missing.read_text().split())) if missing.exists() else ()
         if code:
             yield BuildResult(False, lacks, {"CMake": _cmake_error(text)})
@@ -108,6 +116,15 @@ class PackageBuilder:
                 lines.append(line)
                 yield line.rstrip("\n")
         return process.returncode, "".join(lines)
+
+
+def _forget_other_compiler(build: Path, compiler: str) -> None:
+    """Remove what CMake noted of another compiler: it would begin again without its arguments."""
+    cache = build / "CMakeCache.txt"
+    noted = _COMPILER.search(cache.read_text(encoding="utf-8", errors="replace")) if cache.exists() else None
+    if noted is not None and noted["path"] != compiler:
+        cache.unlink()
+        shutil.rmtree(build / "CMakeFiles", ignore_errors=True)
 
 
 def _failures(text: str) -> dict[str, str]:

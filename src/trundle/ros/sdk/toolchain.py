@@ -1,4 +1,4 @@
-"""Compiler, CMake, Ninja and Boost of this machine, or of Python's packages."""
+"""Compiler, CMake, Ninja, Boost and Eigen of this machine, or of Python's packages."""
 
 import importlib.util
 import os
@@ -12,8 +12,10 @@ from typing import NamedTuple
 
 from trundle.base.diagnostics import UsageError
 
+from .zig import zig_tools
+
 _COMPILERS = ("c++", "g++", "clang++")
-_HEADER = "boost/shared_ptr.hpp"
+_HEADER, _EIGEN = "boost/shared_ptr.hpp", "Eigen/Core"
 _HEADER_FOLDERS = ("/usr/include", "/usr/local/include", "/opt/homebrew/include", "/opt/local/include")
 
 
@@ -27,6 +29,13 @@ class Toolchain(NamedTuple):
     ninja: str
     boost: Path | None
     """Prefix of Boost, if the compiler does not find it by itself."""
+    eigen: Path | None = None
+    """Prefix of Eigen, if it is a Python package's."""
+
+    @property
+    def prefixes(self) -> list[str]:
+        """Folders in which CMake searches besides the machine's."""
+        return list(dict.fromkeys(str(prefix) for prefix in (self.boost, self.eigen) if prefix is not None))
 
 
 def find_toolchain(environment: Mapping[str, str]) -> Toolchain:
@@ -43,7 +52,7 @@ def find_toolchain(environment: Mapping[str, str]) -> Toolchain:
     if compiler is None:
         if chosen:
             raise UsageError(f"CXX names {chosen!r}, which is not found; unset it, or name a C++ compiler")
-        raise UsageError(f"there is no C++ compiler; {_compiler_advice()}")
+        compiler = _zig(environment)
     missing = [name for name in ("cmake", "ninja") if _program(name, path) is None]
     boost = _boost(environment)
     if boost is None:
@@ -57,7 +66,17 @@ def find_toolchain(environment: Mapping[str, str]) -> Toolchain:
     assert cmake is not None
     assert ninja is not None
     prefix = None if str(boost) in ("/usr", "/usr/local") else boost
-    return Toolchain(compiler, version, cmake, ninja, prefix)
+    return Toolchain(compiler, version, cmake, ninja, prefix, _eigen())
+
+
+def _zig(environment: Mapping[str, str]) -> str:
+    try:
+        folder = zig_tools(environment)
+    except OSError as error:
+        raise UsageError(f"cannot write {error.filename}: {error.strerror}") from None
+    if folder is None:
+        raise UsageError(f"there is no C++ compiler; {_compiler_advice()}, or Python's: pip install 'trundle[cpp]'")
+    return str(folder / "c++")
 
 
 def _compiler_advice() -> str:
@@ -76,7 +95,20 @@ def _boost(environment: Mapping[str, str]) -> Path | None:
     named = environment.get("BOOST_ROOT")
     folders = [Path(named, "include")] if named else []
     folders += [Path(folder) for folder in _HEADER_FOLDERS]
+    folders.append(_python_prefix() / "include")
+    return next((folder.parent for folder in folders if (folder / _HEADER).is_file()), None)
+
+
+def _eigen() -> Path | None:
+    """Return the prefix of the Python package cmeel-eigen if the machine has no Eigen."""
+    if any(Path(folder, "eigen3", _EIGEN).is_file() for folder in _HEADER_FOLDERS):
+        return None
+    prefix = _python_prefix()
+    return prefix if (prefix / "include/eigen3" / _EIGEN).is_file() else None
+
+
+def _python_prefix() -> Path:
+    """Return the folder in which Python's packages of C++ libraries are."""
     cmeel = importlib.util.find_spec("cmeel")
     site = Path(cmeel.origin).parents[1] if cmeel and cmeel.origin else Path(sysconfig.get_path("purelib"))
-    folders.append(site / "cmeel.prefix/include")
-    return next((folder.parent for folder in folders if (folder / _HEADER).is_file()), None)
+    return site / "cmeel.prefix"

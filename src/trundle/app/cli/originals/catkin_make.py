@@ -2,6 +2,7 @@
 
 import argparse
 import os
+import re
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -23,6 +24,10 @@ EXAMPLES = """
 """
 _DEVEL, _INSTALL = "-DCATKIN_DEVEL_PREFIX=", "-DCMAKE_INSTALL_PREFIX="
 _LINE = "-- " + "~" * 49
+_COMMENT = re.compile(r"#[^\n]*")
+_EXPORTED_HEADERS = re.compile(r"\bcatkin_package\s*\([^()]*\bINCLUDE_DIRS\b", re.IGNORECASE)
+"""Command of packages whose headers others include, such as nav_core, which has no targets."""
+_TESTS = re.compile(r"\b(?:catkin_add_(?:gtest|gmock|nosetests)|add_rostest\w*)\s*\(", re.IGNORECASE)
 _CONFIG = "share/roscpp/cmake/roscppConfig.cmake"
 
 
@@ -84,9 +89,14 @@ def build_workspace(args: argparse.Namespace) -> int:
     for folder in packages.values():
         for path in write_configured_files(folder, replace=True):
             print(f"-- configured: {os.path.relpath(path, workspace.base)}")
-    compiled = {name: folder for name, folder in packages.items() if report_package(known, name, os.environ).targets}
+    made = {
+        name
+        for name, folder in packages.items()
+        if report_package(known, name, os.environ).targets or (_is_tested(args.targets) and _has(_TESTS, folder))
+    }
+    compiled = {name: folder for name, folder in packages.items() if name in made or _has(_EXPORTED_HEADERS, folder)}
     fault, results = "", {}
-    if compiled:
+    if made:
         try:
             results = _build(workspace, known, compiled, args, definitions, underlays(workspace.devel, os.environ))
         except UsageError as error:
@@ -103,6 +113,17 @@ def build_workspace(args: argparse.Namespace) -> int:
         print(f"-- {them}; all else runs as it is{f'; {fault}' if fault else ''}", file=sys.stderr)
     print(f"-- source {workspace.devel}/setup.bash makes the packages known to this shell")
     return 1 if unbuilt and not fault else 0
+
+
+def _is_tested(targets: list[str]) -> bool:
+    return any(target == "tests" or target.startswith("run_tests") for target in targets)
+
+
+def _has(command: re.Pattern[str], folder: Path) -> bool:
+    """True if a package's CMakeLists.txt has a command."""
+    cmake = folder / "CMakeLists.txt"
+    text = cmake.read_text(encoding="utf-8", errors="replace") if cmake.is_file() else ""
+    return command.search(_COMMENT.sub("", text)) is not None
 
 
 def _sourced_original() -> str | None:
