@@ -35,6 +35,7 @@ macro(_trundle_read_component component)
     endforeach()
     list(APPEND ${component}_LIBRARIES ${_TRUNDLE_BOOST_LIBRARIES} Threads::Threads)
     # Libraries of the machine that its headers need.
+    set(_trundle_component ${component})
     include("${TRUNDLE_SDK}/${component}/cmake/extras.cmake" OPTIONAL)
   elseif(NOT IS_DIRECTORY "${TRUNDLE_SDK}/${component}" AND NOT ${component} IN_LIST TRUNDLE_HEADER_PACKAGES)
     set(${component}_FOUND FALSE)

@@ -1,4 +1,13 @@
 # Included by each project(): what is missing is noted, and the targets that do without it are built.
+
+# As in catkin's workspaces, also for targets before find_package(catkin).
+if(NOT DEFINED BUILD_SHARED_LIBS)
+  set(BUILD_SHARED_LIBS ON)
+endif()
+if(NOT DEFINED CMAKE_LIBRARY_OUTPUT_DIRECTORY)
+  set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CATKIN_DEVEL_PREFIX}/lib")
+  set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${CATKIN_DEVEL_PREFIX}/lib")
+endif()
 if(NOT COMMAND _find_package)
   # A macro runs by the policies of its definition: those of a project may be older than CMake's own modules need.
   cmake_policy(PUSH)
@@ -11,7 +20,7 @@ if(NOT COMMAND _find_package)
       include("${TRUNDLE_SDK}/gazebo/cmake/gazebo-config.cmake")
       set(${name}_FOUND TRUE)
     elseif(COMMAND _trundle_use_component
-           AND (DEFINED _TRUNDLE_LIBRARIES_${name} OR EXISTS "${CATKIN_DEVEL_PREFIX}/share/${name}/cmake/${name}Config.cmake"))
+           AND (DEFINED _TRUNDLE_LIBRARIES_${name} OR "${name}" IN_LIST TRUNDLE_HEADER_PACKAGES OR EXISTS "${CATKIN_DEVEL_PREFIX}/share/${name}/cmake/${name}Config.cmake"))
       _trundle_read_component(${name})
     else()
       # A word after REQUIRED is a component, as after COMPONENTS.

@@ -1,5 +1,5 @@
-# Eigen of the machine, whose headers those of tf2_eigen include.
+# Eigen of the machine, whose headers those of the package include.
 find_package(Eigen3 QUIET)
 if(EIGEN3_INCLUDE_DIRS)
-  list(APPEND tf2_eigen_INCLUDE_DIRS ${EIGEN3_INCLUDE_DIRS})
+  list(APPEND ${_trundle_component}_INCLUDE_DIRS ${EIGEN3_INCLUDE_DIRS})
 endif()

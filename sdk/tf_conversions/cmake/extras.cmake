@@ -1,5 +1,10 @@
-# Eigen of the machine, whose headers those of tf_conversions include.
+# Eigen and, where it is installed, KDL of the machine, whose headers those of tf_conversions include.
 find_package(Eigen3 QUIET)
 if(EIGEN3_INCLUDE_DIRS)
-  list(APPEND tf_conversions_INCLUDE_DIRS ${EIGEN3_INCLUDE_DIRS})
+  list(APPEND ${_trundle_component}_INCLUDE_DIRS ${EIGEN3_INCLUDE_DIRS})
+endif()
+find_library(TRUNDLE_KDL_LIBRARY orocos-kdl)
+mark_as_advanced(TRUNDLE_KDL_LIBRARY)
+if(TRUNDLE_KDL_LIBRARY)
+  list(APPEND ${_trundle_component}_LIBRARIES ${TRUNDLE_KDL_LIBRARY})
 endif()

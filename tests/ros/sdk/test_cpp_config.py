@@ -6,7 +6,7 @@ import sys
 
 import pytest
 from tests.graphs import Graph, until
-from tests.ros.sdk.conftest import Running
+from tests.ros.sdk.conftest import WAIT_S, Running
 
 from trundle.ros.clients.reconfigure_client import find_reconfigurable, read_options, set_options
 
@@ -60,3 +60,15 @@ def test_a_hostile_request_changes_nothing_else(running: Running, graph: Graph) 
     assert told[1].startswith("level 16 ")
     assert told[1].endswith("open 111")
     assert process.poll() is None
+
+
+def test_a_client_reads_and_sets_the_parameters(running: Running) -> None:
+    running.start("drive", package="cpp_config")
+    process = running.start("steer", package="cpp_config")
+    output, _ = process.communicate(timeout=WAIT_S)
+
+    assert process.returncode == 0, output
+    assert "callback turns 0 depth -5 gain 0.5\n" in output
+    assert "set turns 3 depth -1 gain 0.5\n" in output, "the server clamps"
+    assert "min turns -2147483648 depth -10 " in output
+    assert output.endswith("\n00\n"), "no such node"

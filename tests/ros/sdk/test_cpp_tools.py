@@ -1,6 +1,7 @@
 """Libraries that many nodes use, in a compiled program: diagnostics, images, clouds, controllers."""
 
 import re
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -12,7 +13,10 @@ from trundle.ros import Messages
 pytestmark = pytest.mark.slow
 
 
-def test_the_libraries_work_and_their_messages_arrive(running: Running, graph: Graph, messages: Messages) -> None:
+def test_the_libraries_work_and_their_messages_arrive(
+    running: Running, graph: Graph, messages: Messages, tmp_path: Path
+) -> None:
+    running.environment["ROS_HOME"] = str(tmp_path)
     node = graph.node("tester")
     statuses: dict[str, Any] = {}
     numbers: list[float] = []
@@ -61,7 +65,7 @@ def test_the_libraries_work_and_their_messages_arrive(running: Running, graph: G
     until(lambda: statuses["tools: ticks topic status"].message == "No events recorded.")
 
 
-@pytest.mark.parametrize(("program", "library"), [("matrices", "Eigen"), ("pictures", "OpenCV")])
+@pytest.mark.parametrize(("program", "library"), [("matrices", "Eigen"), ("pictures", "OpenCV"), ("chains", "KDL")])
 def test_conversions_to_a_library_of_the_machine(running: Running, program: str, library: str) -> None:
     if not (running.folder / "cpp_tools" / program).exists():
         pytest.skip(f"this machine has no {library} for C++")

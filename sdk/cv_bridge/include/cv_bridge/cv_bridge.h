@@ -14,6 +14,9 @@
 #include <opencv2/imgcodecs.hpp>
 #define TRUNDLE_HAS_IMGCODECS
 #endif
+#if __has_include(<opencv2/imgproc/types_c.h>)
+#include <opencv2/imgproc/types_c.h>  // CV_BGR2HSV and the like
+#endif
 #endif
 #include <stdexcept>
 #include <string>

@@ -2,6 +2,7 @@
 
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <ros/ros.h>
+#include <boost/thread.hpp>
 
 #include <boost/thread/recursive_mutex.hpp>
 
@@ -59,13 +60,14 @@ class Server {
 
   void start() {
     const Lock lock(mutex_);
+    // Before the values, as clients that get them set others at once.
+    service_ = node_.advertiseService("set_parameters", &Server::set, this);
     config_.__fromServer__(node_);
     config_.__clamp__(min_, max_);
     descriptions_ = node_.advertise<ConfigDescription>("parameter_descriptions", 1, true);
     updates_ = node_.advertise<Config>("parameter_updates", 1, true);
     describe();
     store(config_);
-    service_ = node_.advertiseService("set_parameters", &Server::set, this);
   }
   void describe() {
     ConfigDescription message = ConfigType::__getDescriptionMessage__();

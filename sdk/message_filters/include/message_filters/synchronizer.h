@@ -1,5 +1,8 @@
 #pragma once
 
+#include <ros/message_event.h>
+#include <boost/thread/mutex.hpp>
+#include <boost/tuple/tuple.hpp>
 #include <string>
 #include <vector>
 

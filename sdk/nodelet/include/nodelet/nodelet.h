@@ -3,6 +3,7 @@
 #include <ros/callback_queue.h>
 #include <ros/console.h>
 #include <ros/ros.h>
+#include <boost/thread/mutex.hpp>
 
 #include <boost/shared_ptr.hpp>
 #include <mutex>

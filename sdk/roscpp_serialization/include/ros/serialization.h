@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ros/datatypes.h>
 #include <stdint.h>
 
 #include <boost/array.hpp>
@@ -8,7 +9,9 @@
 #include <boost/shared_ptr.hpp>
 #include <boost/utility/enable_if.hpp>
 #include <cstring>
+#include <list>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 

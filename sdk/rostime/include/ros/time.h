@@ -2,6 +2,7 @@
 
 #include <stdint.h>
 
+#include <climits>
 #include <cmath>
 #include <iostream>  // included by the original, too: programs print without including it
 #include <string>

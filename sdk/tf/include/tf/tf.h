@@ -1,6 +1,16 @@
 #pragma once
 
+#include <geometry_msgs/TwistStamped.h>
+#include <tf2_ros/buffer.h>
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <list>
+#include <map>
+#include <set>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "tf/exceptions.h"
 #include "tf/transform_datatypes.h"

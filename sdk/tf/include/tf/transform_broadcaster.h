@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tf/tfMessage.h>
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <vector>

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <ros/ros.h>
+#include <std_msgs/Empty.h>
+#include <tf/tfMessage.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 

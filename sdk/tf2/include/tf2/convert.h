@@ -3,6 +3,7 @@
 #include <geometry_msgs/TransformStamped.h>
 #include <ros/message_traits.h>
 #include <ros/time.h>
+#include <tf2/exceptions.h>
 
 #include <string>
 

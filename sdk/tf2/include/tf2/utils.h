@@ -7,13 +7,20 @@ namespace tf2 {
 /** Angles of a rotation about fixed axes [rad]. */
 template <class A>
 void getEulerYPR(const A& a, double& yaw, double& pitch, double& roll) {
-  Matrix3x3(impl::quaternionOf(a)).getEulerYPR(yaw, pitch, roll);
+  impl::getEulerYPR(impl::toQuaternion(a), yaw, pitch, roll);
 }
 template <class A>
 double getYaw(const A& a) {
-  double yaw, pitch, roll;
-  getEulerYPR(a, yaw, pitch, roll);
-  return yaw;
+  return impl::getYaw(impl::toQuaternion(a));
+}
+/** The identity as a value of type A. */
+template <class A>
+A getTransformIdentity() {
+  Transform t;
+  t.setIdentity();
+  A a;
+  convert(t, a);
+  return a;
 }
 
 }  // namespace tf2

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <ros/ros.h>
 #include <tf2/buffer_core.h>
+#include <tf2_msgs/FrameGraph.h>
 
 #include "tf2_ros/buffer_interface.h"
 

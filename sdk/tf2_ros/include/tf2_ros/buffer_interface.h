@@ -5,6 +5,7 @@
 #include <tf2/buffer_core.h>
 #include <tf2/convert.h>
 
+#include <sstream>
 #include <string>
 
 namespace tf2_ros {

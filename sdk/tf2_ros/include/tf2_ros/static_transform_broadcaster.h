@@ -2,6 +2,7 @@
 
 #include <geometry_msgs/TransformStamped.h>
 #include <ros/ros.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <map>
 #include <string>

@@ -3,6 +3,7 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <tf2_msgs/TFMessage.h>
+#include <boost/thread.hpp>
 
 #include "tf2_ros/buffer.h"
 

@@ -102,6 +102,7 @@ class XmlRpcValue {
   void become(Type type);
   void require(Type type) const;
 
+ protected:  // programs derive classes that fill a value
   Type _type;
   union {
     bool asBool;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/thread.hpp>
 #include <map>
 
 #include "actionlib/client/client_goal_handle.h"

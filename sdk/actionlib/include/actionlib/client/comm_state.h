@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ros/console.h>
 #include <string>
 
 namespace actionlib {

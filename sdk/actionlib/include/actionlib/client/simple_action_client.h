@@ -1,5 +1,7 @@
 #pragma once
 
+#include <boost/thread.hpp>
+#include <boost/scoped_ptr.hpp>
 #include <actionlib_msgs/GoalID.h>
 #include <actionlib_msgs/GoalStatusArray.h>
 #include <ros/callback_queue.h>

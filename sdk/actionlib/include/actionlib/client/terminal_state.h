@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ros/console.h>
 #include <string>
 
 #include "actionlib/client/simple_client_goal_state.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cfloat>
+#include <cstdlib>
 #include <cmath>
 
 typedef double tf2Scalar;

@@ -1,5 +1,7 @@
 // Conversions of cv_bridge; prints a line for each check that fails.
 #include <cv_bridge/cv_bridge.h>
+#include <image_geometry/pinhole_camera_model.h>
+#include <image_geometry/stereo_camera_model.h>
 #include <ros/ros.h>
 
 #include <iostream>
@@ -36,10 +38,60 @@ std::string fault(const sensor_msgs::Image& image, const std::string& encoding =
   return "";
 }
 
+bool isNear(const cv::Point2d& a, double x, double y) { return std::fabs(a.x - x) + std::fabs(a.y - y) < 1e-6; }
+
+void checkCameras() {
+  sensor_msgs::CameraInfo info;
+  info.width = 640;
+  info.height = 480;
+  info.distortion_model = "plumb_bob";
+  info.D.assign(5, 0.0);
+  info.K = {{500, 0, 320, 0, 400, 240, 0, 0, 1}};
+  info.R = {{1, 0, 0, 0, 1, 0, 0, 0, 1}};
+  info.P = {{500, 0, 320, 0, 0, 400, 240, 0, 0, 0, 1, 0}};
+  image_geometry::PinholeCameraModel camera;
+  bool is_refused = false;
+  try {
+    camera.project3dToPixel(cv::Point3d(1, 1, 1));
+  } catch (const image_geometry::Exception&) {
+    is_refused = true;
+  }
+  CHECK(is_refused && !camera.initialized());
+  CHECK(camera.fromCameraInfo(info) && !camera.fromCameraInfo(info));
+  CHECK(isNear(camera.project3dToPixel(cv::Point3d(1, -1, 2)), 570, 40));
+  CHECK(camera.projectPixelTo3dRay(cv::Point2d(570, 40)) == cv::Point3d(0.5, -0.5, 1));
+  CHECK(isNear(camera.rectifyPoint(cv::Point2d(3, 4)), 3, 4) && camera.fullResolution() == cv::Size(640, 480));
+  info.D = {-0.3, 0.1, 0, 0, 0};
+  CHECK(camera.fromCameraInfo(info));
+  const cv::Point2d raw = camera.unrectifyPoint(cv::Point2d(600, 440));
+  CHECK(raw.x < 600 && raw.y < 440 && cv::norm(camera.rectifyPoint(raw) - cv::Point2d(600, 440)) < 0.1);
+  info.D.assign(5, 0.0);
+  info.binning_x = info.binning_y = 2;
+  info.roi.x_offset = 100;
+  info.roi.y_offset = 40;
+  info.roi.width = 200;
+  info.roi.height = 100;
+  CHECK(camera.fromCameraInfo(info) && camera.reducedResolution() == cv::Size(100, 50));
+  CHECK(isNear(camera.project3dToPixel(cv::Point3d(0, 0, 1)), 110, 100) && camera.fx() == 250);
+  CHECK(isNear(camera.toFullResolution(cv::Point2d(110, 100)), 320, 240));
+
+  sensor_msgs::CameraInfo right = info;
+  right.P[3] = -50;  // 0.1 m beside
+  image_geometry::StereoCameraModel pair;
+  CHECK(pair.fromCameraInfo(info, right) && std::fabs(pair.baseline() - 0.1) < 1e-9);
+  CHECK(std::fabs(pair.getZ(10) - 2.5) < 1e-9 && std::fabs(pair.getDisparity(2.5) - 10) < 1e-9);
+  cv::Point3d point;
+  pair.projectDisparityTo3d(cv::Point2d(360, 100), 10, point);
+  CHECK(std::fabs(point.x - 2.5) < 1e-9 && std::fabs(point.z - 2.5) < 1e-9);
+  const cv::Matx41d seen = pair.reprojectionMatrix() * cv::Matx41d(360, 100, 10, 1);
+  CHECK(std::fabs(seen(0) / seen(3) - 2.5) < 1e-9 && std::fabs(seen(2) / seen(3) - 2.5) < 1e-9);
+}
+
 }  // namespace
 
 int main() {
   ros::Time::init();
+  checkCameras();
   const sensor_msgs::ImagePtr rgb = picture("rgb8", 2, 6, {0, 10, 20, 30, 40, 50});
   const cv_bridge::CvImagePtr bgr = cv_bridge::toCvCopy(rgb, sensor_msgs::image_encodings::BGR8);
   CHECK(bgr->image.at<cv::Vec3b>(0, 1) == cv::Vec3b(50, 40, 30) && bgr->header.frame_id == "eye");

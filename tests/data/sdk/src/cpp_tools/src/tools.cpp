@@ -1,5 +1,7 @@
 // Checks of small libraries; then a node that passes images on, and publishes diagnostics and a cloud.
 #include <angles/angles.h>
+#include <camera_calibration_parsers/parse_yml.h>
+#include <camera_info_manager/camera_info_manager.h>
 #include <control_toolbox/pid.h>
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <diagnostic_updater/publisher.h>
@@ -13,10 +15,13 @@
 #include <sensor_msgs/fill_image.h>
 #include <sensor_msgs/image_encodings.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
+#include <sensor_msgs/point_cloud_conversion.h>
 #include <std_msgs/Float64.h>
 #include <tf2_sensor_msgs/tf2_sensor_msgs.h>
 
+#include <cstdlib>
 #include <iostream>
+#include <sstream>
 
 namespace {
 
@@ -90,6 +95,28 @@ void checkImages() {
   }
   CHECK(is_refused);
   CHECK(image_transport::getCameraInfoTopic("/eye/image_raw") == "/eye/camera_info");
+}
+
+void checkOldClouds() {
+  sensor_msgs::PointCloud old, back;
+  old.points.resize(2);
+  old.points[1].y = 2.5f;
+  old.channels.resize(1);
+  old.channels[0].name = "intensity";
+  old.channels[0].values = {7.f, 8.f};
+  sensor_msgs::PointCloud2 cloud;
+  CHECK(sensor_msgs::convertPointCloudToPointCloud2(old, cloud) && cloud.width == 2 && cloud.point_step == 16);
+  CHECK(sensor_msgs::getPointCloud2FieldIndex(cloud, "intensity") == 3);
+  CHECK(sensor_msgs::getPointCloud2FieldIndex(cloud, "rgb") == -1);
+  CHECK(sensor_msgs::convertPointCloud2ToPointCloud(cloud, back) && back.points[1].y == 2.5f);
+  CHECK(back.channels.size() == 1 && back.channels[0].values == old.channels[0].values);
+  cloud.width = 4000000000u;
+  CHECK(!sensor_msgs::convertPointCloud2ToPointCloud(cloud, back));
+  cloud.width = 2;
+  cloud.fields[1].offset = 14;
+  CHECK(!sensor_msgs::convertPointCloud2ToPointCloud(cloud, back));
+  old.channels[0].values.pop_back();
+  CHECK(!sensor_msgs::convertPointCloudToPointCloud2(old, cloud));
 }
 
 void checkClouds() {
@@ -195,6 +222,40 @@ class Node {
 
 }  // namespace
 
+void checkCalibration() {
+  const std::string file = std::string(std::getenv("ROS_HOME")) + "/camera_info/left.yaml";
+  camera_info_manager::CameraInfoManager camera(ros::NodeHandle("left"), "left");
+  CHECK(!camera.isCalibrated() && camera.getCameraInfo().width == 0);
+  CHECK(camera.resolveURL("", "left") == "file://" + file);
+  CHECK(camera.validateURL("package://a/b.yaml") && !camera.validateURL("http://a/b.yaml") && camera.validateURL(""));
+  sensor_msgs::SetCameraInfo call;
+  call.request.camera_info.width = 640;
+  call.request.camera_info.height = 480;
+  call.request.camera_info.distortion_model = "plumb_bob";
+  call.request.camera_info.D = {0.1, -0.2, 1e-3, 0, 0};
+  for (size_t i = 0; i < 9; ++i) call.request.camera_info.K[i] = 0.1 * static_cast<double>(i + 1);
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  CHECK(ros::service::call("/left/set_camera_info", call) && call.response.success);
+  camera_info_manager::CameraInfoManager again(ros::NodeHandle("again"), "left", "file://${ROS_HOME}/camera_info/${NAME}.yaml");
+  const sensor_msgs::CameraInfo read = again.getCameraInfo();
+  CHECK(again.isCalibrated() && read.K == call.request.camera_info.K && read.D == call.request.camera_info.D);
+  CHECK(read.width == 640 && read.distortion_model == "plumb_bob");
+  CHECK(!again.setCameraName("a/b") && again.setCameraName("right") && !again.loadCameraInfo("package://none/a.yaml"));
+  std::istringstream calibration("image_width: 8\nimage_height: 6\ncamera_name: 'narrow stereo'\ncamera_matrix: !!opencv\n"
+                                 "  rows: 3\n  cols: 3\n  data: [ 1., 0., 4.,\n    0., 1., 3., 0., 0., 1. ]\n"
+                                 "distortion_coefficients:\n  data:\n  - 0.5\n  - -1\nrectification_matrix:\n"
+                                 "  data: [1, 0, 0, 0, 1, 0, 0, 0, 1]\nprojection_matrix:\n"
+                                 "  data: [1, 0, 4, 0, 0, 1, 3, 0, 0, 0, 1, 0]\n");
+  std::string name;
+  sensor_msgs::CameraInfo info;
+  CHECK(camera_calibration_parsers::readCalibrationYml(calibration, name, info) && name == "narrow stereo");
+  CHECK(info.K[2] == 4 && info.K[4] == 1 && info.D == std::vector<double>({0.5, -1}) && info.P[6] == 3);
+  std::istringstream damaged("image_width: x\nimage_height: 6\n"), empty;
+  CHECK(!camera_calibration_parsers::readCalibrationYml(damaged, name, info) && info.width == 8);
+  CHECK(!camera_calibration_parsers::readCalibrationYml(empty, name, info));
+}
+
 int main(int argc, char** argv) {
   ros::init(argc, argv, "tools");
   ros::NodeHandle node;
@@ -203,6 +264,8 @@ int main(int argc, char** argv) {
   checkRealtime();
   checkImages();
   checkClouds();
+  checkOldClouds();
+  checkCalibration();
   std::cout << made << " checks, " << failed << " failed" << std::endl;
   if (failed) return 1;
   Node tools;

@@ -1,0 +1,1 @@
+include("${TRUNDLE_SDK}/cv_bridge/cmake/extras.cmake")

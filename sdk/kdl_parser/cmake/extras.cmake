@@ -1,0 +1,11 @@
+# KDL of the machine, and Eigen, which its headers include.
+include("${TRUNDLE_SDK}/tf2_eigen/cmake/extras.cmake")
+find_path(TRUNDLE_KDL kdl/frames.hpp)
+find_library(TRUNDLE_KDL_LIBRARY orocos-kdl)
+mark_as_advanced(TRUNDLE_KDL TRUNDLE_KDL_LIBRARY)
+if(TRUNDLE_KDL AND TRUNDLE_KDL_LIBRARY)
+  list(APPEND ${_trundle_component}_INCLUDE_DIRS ${TRUNDLE_KDL} ${EIGEN3_INCLUDE_DIRS})
+  list(APPEND ${_trundle_component}_LIBRARIES ${TRUNDLE_KDL_LIBRARY})
+else()
+  file(APPEND "${CMAKE_BINARY_DIR}/trundle_missing.txt" "orocos_kdl\n")
+endif()

@@ -1,0 +1,1 @@
+include("${TRUNDLE_SDK}/kdl_parser/cmake/extras.cmake")
