@@ -8,16 +8,14 @@ cmake_policy(SET CMP0057 NEW)
 
 set(catkin_FOUND TRUE)
 set(CATKIN_DEVEL_PREFIX "${CATKIN_DEVEL_PREFIX}" CACHE PATH "devel space")
-set(CATKIN_ENABLE_TESTING OFF)
-if(NOT DEFINED BUILD_SHARED_LIBS)
-  set(BUILD_SHARED_LIBS ON)
-endif()
+option(CATKIN_ENABLE_TESTING "define the targets of tests" OFF)  # ON for `catkin_make tests` and `run_tests`
 
 if(NOT COMMAND catkin_package)
   include("${CMAKE_CURRENT_LIST_DIR}/names.cmake")
   include("${CMAKE_CURRENT_LIST_DIR}/components.cmake")
   include("${CMAKE_CURRENT_LIST_DIR}/package.cmake")
   include("${CMAKE_CURRENT_LIST_DIR}/messages.cmake")
+  include("${CMAKE_CURRENT_LIST_DIR}/testing.cmake")
   include("${CMAKE_CURRENT_LIST_DIR}/ignored.cmake")
 endif()
 _trundle_name_folders()

@@ -1,9 +1,8 @@
-# Commands for Python, tests and tools, which are without effect here: Python runs as it is.
+# Commands for Python and tools, which are without effect here: Python runs as it is.
 set(CATKIN_IGNORED
-  catkin_python_setup catkin_metapackage catkin_workspace catkin_add_env_hooks catkin_add_gtest catkin_add_nosetests
-  catkin_add_gmock catkin_download_test_data catkin_run_tests_target add_rostest add_rostest_gtest add_rostest_gmock
-  roslaunch_add_file_check roslint_cpp roslint_python roslint_custom roslint_add_test genmsg_generate
-  add_rosdoc rosbuild_init)
+  catkin_python_setup catkin_metapackage catkin_workspace catkin_add_env_hooks catkin_download_test_data
+  catkin_run_tests_target roslaunch_add_file_check roslint_cpp roslint_python roslint_custom roslint_add_test
+  genmsg_generate add_rosdoc rosbuild_init)
 foreach(name IN LISTS CATKIN_IGNORED)
   if(NOT COMMAND ${name})
     cmake_language(EVAL CODE "function(${name})\nendfunction()")

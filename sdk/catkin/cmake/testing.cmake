@@ -1,0 +1,86 @@
+# Tests: `tests` compiles them, `run_tests` runs them and writes their results for JUnit's readers.
+#
+# TRUNDLE_PYTHON: the Python that has Trundle, whose rostest and unittest run tests.
+set(CATKIN_TEST_RESULTS_DIR "${CMAKE_BINARY_DIR}/test_results")
+
+macro(_trundle_name_tests)
+  if(NOT TARGET tests)
+    add_custom_target(tests)
+    add_custom_target(run_tests DEPENDS tests)
+  endif()
+  if(CATKIN_ENABLE_TESTING AND NOT GTEST_FOUND)
+    find_package(GTest QUIET)
+    if(TARGET GTest::gtest)
+      set(GTEST_FOUND TRUE)
+      set(GTEST_LIBRARIES GTest::gtest)
+      set(GTEST_MAIN_LIBRARIES GTest::gtest_main)
+      set(GTEST_BOTH_LIBRARIES GTest::gtest GTest::gtest_main)
+    endif()
+    if(TARGET GTest::gmock)
+      set(GMOCK_FOUND TRUE)
+      set(GMOCK_LIBRARIES GTest::gmock GTest::gtest)
+      set(GMOCK_MAIN_LIBRARIES GTest::gmock_main)
+      set(GMOCK_BOTH_LIBRARIES GTest::gmock GTest::gmock_main)
+    endif()
+  endif()
+endmacro()
+
+# Compile a test for one of the frameworks; it is no part of the target `all`.
+function(_trundle_compile_test framework name)
+  cmake_parse_arguments(given "EXCLUDE_FROM_ALL" "TIMEOUT;WORKING_DIRECTORY" "" ${ARGN})
+  if(${framework}_FOUND)
+    add_executable(${name} EXCLUDE_FROM_ALL ${given_UNPARSED_ARGUMENTS})
+    target_link_libraries(${name} ${${framework}_LIBRARIES} Threads::Threads)
+    add_dependencies(tests ${name})
+  else()
+    message(WARNING "the test ${name} is left out: ${framework} is not installed")
+  endif()
+endfunction()
+
+# Run a command as a part of run_tests; a failed test does not stop the others.
+function(_trundle_run_test name)
+  string(MAKE_C_IDENTIFIER "run_tests_${PROJECT_NAME}_${name}" target)
+  add_custom_target(${target} COMMAND ${ARGN} || "${CMAKE_COMMAND}" -E true
+    WORKING_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}" USES_TERMINAL VERBATIM)
+  add_dependencies(${target} tests)
+  add_dependencies(run_tests ${target})
+endfunction()
+
+foreach(framework gtest gmock)
+  string(TOUPPER "${framework}" _trundle_upper)
+  cmake_language(EVAL CODE "
+    function(catkin_add_${framework} name)
+      _trundle_compile_test(${_trundle_upper} \${name} \${ARGN})
+      if(TARGET \${name})
+        _trundle_run_test(\${name} $<TARGET_FILE:\${name}>
+          \"--gtest_output=xml:\${CATKIN_TEST_RESULTS_DIR}/\${PROJECT_NAME}/${framework}-\${name}.xml\")
+      endif()
+    endfunction()
+    function(add_rostest_${framework} name launch)
+      _trundle_compile_test(${_trundle_upper} \${name} \${ARGN})
+      add_rostest(\${launch})
+    endfunction()")
+endforeach()
+
+function(catkin_add_executable_with_gtest name)
+  _trundle_compile_test(GTEST ${name} ${ARGN})
+endfunction()
+
+function(add_rostest file)
+  cmake_parse_arguments(given "" "WORKING_DIRECTORY" "ARGS;DEPENDENCIES" ${ARGN})
+  get_filename_component(file "${file}" ABSOLUTE BASE_DIR "${CMAKE_CURRENT_SOURCE_DIR}")
+  file(RELATIVE_PATH name "${PROJECT_SOURCE_DIR}" "${file}")
+  string(MAKE_C_IDENTIFIER "rostest_${name}_${given_ARGS}" name)
+  _trundle_run_test(${name} "${TRUNDLE_PYTHON}" -m trundle --as rostest "${file}" ${given_ARGS}
+    "--results-filename=${name}.xml" "--results-base-dir=${CATKIN_TEST_RESULTS_DIR}")
+endfunction()
+
+function(catkin_add_nosetests path)
+  get_filename_component(path "${path}" ABSOLUTE BASE_DIR "${CMAKE_CURRENT_SOURCE_DIR}")
+  file(RELATIVE_PATH name "${PROJECT_SOURCE_DIR}" "${path}")
+  if(IS_DIRECTORY "${path}")
+    _trundle_run_test("nosetests_${name}" "${TRUNDLE_PYTHON}" -m unittest discover -s "${path}" -p "*test*.py")
+  else()
+    _trundle_run_test("nosetests_${name}" "${TRUNDLE_PYTHON}" -m unittest "${path}")
+  endif()
+endfunction()

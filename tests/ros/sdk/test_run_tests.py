@@ -1,0 +1,68 @@
+"""catkin_make run_tests: tests of a package are compiled and run, and their results are written."""
+
+import os
+import subprocess
+import sys
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import pytest
+from tests.ros.sdk.conftest import require_compiler
+
+pytestmark = pytest.mark.slow
+
+_CMAKE = """\
+cmake_minimum_required(VERSION 3.0.2)
+project(tested)
+find_package(catkin REQUIRED COMPONENTS roscpp)
+catkin_package()
+include_directories(${catkin_INCLUDE_DIRS})
+if(CATKIN_ENABLE_TESTING)
+  catkin_add_gtest(sums test/sums.cpp)
+  target_link_libraries(sums ${catkin_LIBRARIES})
+  catkin_add_nosetests(test/test_words.py)
+endif()
+"""
+_SUMS = """\
+#include <gtest/gtest.h>
+#include <ros/time.h>
+TEST(Sums, durationsAdd) { EXPECT_EQ(ros::Duration(3), ros::Duration(1) + ros::Duration(2)); }
+TEST(Sums, wrong) { EXPECT_EQ(5, 2 + 2); }
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
+"""
+_WORDS = """\
+import unittest
+class Words(unittest.TestCase):
+    def test_upper(self):
+        self.assertEqual("a".upper(), "A")
+"""
+
+
+def test_tests_run_and_a_failed_one_is_in_the_results(tmp_path: Path) -> None:
+    require_compiler()
+    if not Path("/usr/include/gtest/gtest.h").exists():
+        pytest.skip("this machine has no GoogleTest for C++")
+    package = tmp_path / "src/tested"
+    (package / "test").mkdir(parents=True)
+    (package / "package.xml").write_text("<package><name>tested</name><version>0.1.0</version></package>")
+    (package / "CMakeLists.txt").write_text(_CMAKE)
+    (package / "test/sums.cpp").write_text(_SUMS)
+    (package / "test/test_words.py").write_text(_WORDS)
+    environment = {name: value for name, value in os.environ.items() if name != "CMAKE_PREFIX_PATH"}
+    done = subprocess.run(
+        [sys.executable, "-m", "trundle", "--as", "catkin_make", "run_tests"],
+        cwd=tmp_path,
+        env={**environment, "PWD": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    output = done.stdout + done.stderr
+
+    results = ET.parse(tmp_path / "build/tested/test_results/tested/gtest-sums.xml").getroot()
+    assert (results.get("tests"), results.get("failures")) == ("2", "1"), output
+    assert "Ran 1 test" in output
+    assert (tmp_path / "devel/lib/tested/sums").exists()
