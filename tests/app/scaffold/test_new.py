@@ -97,6 +97,32 @@ def test_a_generated_package_node_and_message_work(folder: Path, monkeypatch: py
         assert process.returncode == 0, process.stdout + process.stderr
 
 
+@pytest.mark.slow
+def test_a_package_and_a_node_in_cpp_are_compiled_and_tested(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    try:
+        find_toolchain(os.environ)
+    except UsageError as error:
+        pytest.skip(str(error))
+    source = folder / "ws/src"
+    source.mkdir(parents=True)
+    monkeypatch.chdir(source)
+    assert main(["new", "package", "--cpp", "patrol"]) == 0
+    monkeypatch.chdir(source / "patrol")
+    assert main(["new", "node", "--cpp", "circle"]) == 0
+    env = {**os.environ, "PWD": str(folder / "ws"), "ROS_HOME": str(folder / "ros")}
+    env.pop("CMAKE_PREFIX_PATH", None)
+    for words in ([], ["run_tests"]):
+        command = [sys.executable, "-m", "trundle", "--as", "catkin_make", *words]
+        made = subprocess.run(command, cwd=folder / "ws", env=env, capture_output=True, text=True, check=False)
+        assert made.returncode == 0, made.stdout + made.stderr
+    results = sorted((folder / "ws/build/patrol/test_results").glob("*/rosunit-*.xml"))
+    assert [result.name for result in results] == ["rosunit-check_circle.xml", "rosunit-check_patrol.xml"]
+    for result in results:
+        text = result.read_text()
+        assert 'failures="0"' in text, text
+        assert "test_the_command_is_that_of_the_parameters" in text, text
+
+
 def test_existing_files_are_not_overwritten(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (folder / "launch").mkdir()
     (folder / "launch/rover.launch").write_text("mine")
@@ -118,7 +144,8 @@ def test_existing_files_are_not_overwritten(folder: Path, capsys: pytest.Capture
         (["message", "Speed"], "a message belongs in a package"),
         (["robot", "../rover"], "is not a name"),
         (["world", "yard", "--kind", "arm"], "--kind is only for robots, not for a world"),
-        (["node", "patrol", "--cpp"], "--cpp is only for plugins, not for a node"),
+        (["world", "yard", "--cpp"], "--cpp is for packages, nodes and plugins, not for a world"),
+        (["node", "patrol", "--cpp"], "a node belongs in a package"),
     ],
 )
 def test_invalid_arguments_are_explained(

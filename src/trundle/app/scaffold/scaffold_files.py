@@ -24,6 +24,8 @@ class Scaffold:
     """Path with @NAME@ → template."""
     next_steps: tuple[str, ...]
     """Commands that run the scaffold."""
+    cmake: str = ""
+    """Template of what the package's CMakeLists.txt gets."""
     needs_package: bool = False
     """True: ROS finds the file only in a package."""
     is_camel_case: bool = False
@@ -48,20 +50,47 @@ _NODE = {
 }
 
 
-_CPP_PLUGIN = Scaffold(
-    files={
-        "models/@NAME@/model.config": "model.config",
-        "models/@NAME@/model.sdf": "cpp_plugin.sdf",
-        "models/@NAME@/CMakeLists.txt": "cpp_plugin.cmake",
-        "models/@NAME@/@NAME@.cc": "cpp_plugin.cc",
-        "test/test_@NAME@.py": "test_cpp_plugin.py",
-    },
-    next_steps=(
-        "trundle shell -c 'cmake -S models/@NAME@ -B models/@NAME@/build && make -C models/@NAME@/build'",
-        "trundle run models/@NAME@",
-        "pytest test",
+_CPP_NODE = {
+    "src/@NAME@.cpp": "cpp_node.cpp",
+    "test/@NAME@.test": "cpp_node.test",
+    "test/check_@NAME@.py": "check_node.py",
+}
+_CPP = {
+    "package": Scaffold(
+        files={**_CPP_NODE, "launch/@NAME@.launch": "cpp_package.launch"},
+        next_steps=(
+            "trundle shell -c catkin_make                       # in the workspace, whose src has the package",
+            "trundle launch @NAME@ @NAME@.launch",
+            "trundle shell -c 'catkin_make run_tests'",
+        ),
+        cmake="cpp_node.cmake",
     ),
-)
+    "node": Scaffold(
+        files=_CPP_NODE,
+        next_steps=(
+            "trundle shell -c catkin_make                       # in the workspace",
+            "trundle exec @PACKAGE@ @NAME@",
+            "trundle shell -c 'catkin_make run_tests'",
+        ),
+        needs_package=True,
+        cmake="cpp_node.cmake",
+    ),
+    "plugin": Scaffold(
+        files={
+            "models/@NAME@/model.config": "model.config",
+            "models/@NAME@/model.sdf": "cpp_plugin.sdf",
+            "models/@NAME@/CMakeLists.txt": "cpp_plugin.cmake",
+            "models/@NAME@/@NAME@.cc": "cpp_plugin.cc",
+            "test/test_@NAME@.py": "test_cpp_plugin.py",
+        },
+        next_steps=(
+            "trundle shell -c 'cmake -S models/@NAME@ -B models/@NAME@/build && make -C models/@NAME@/build'",
+            "trundle run models/@NAME@",
+            "pytest test",
+        ),
+    ),
+}
+"""Scaffolds in C++, by kind."""
 
 
 def scaffolds(robot: str = ROBOTS[0], *, is_cpp: bool = False) -> dict[str, Scaffold]:
@@ -69,8 +98,10 @@ def scaffolds(robot: str = ROBOTS[0], *, is_cpp: bool = False) -> dict[str, Scaf
 
     Args:
         robot: one of ROBOTS.
-        is_cpp: True for a plugin in C++.
+        is_cpp: True for those in C++: plugins, packages and nodes.
     """
+    if is_cpp:
+        return _CPP
     return {
         "package": Scaffold(
             files={**_NODE, "launch/@NAME@.launch": "package.launch"},
@@ -81,9 +112,7 @@ def scaffolds(robot: str = ROBOTS[0], *, is_cpp: bool = False) -> dict[str, Scaf
             files={"worlds/@NAME@.world": "world.world", "test/test_@NAME@.py": "test_world.py"},
             next_steps=("trundle run worlds/@NAME@.world", "pytest test"),
         ),
-        "plugin": _CPP_PLUGIN
-        if is_cpp
-        else Scaffold(
+        "plugin": Scaffold(
             files={
                 "models/@NAME@/model.config": "model.config",
                 "models/@NAME@/model.sdf": "plugin.sdf",
@@ -142,6 +171,25 @@ def write_scaffold(scaffold: Scaffold, name: str, folder: Path, *, package: str)
     except OSError as error:
         raise UsageError(f"cannot write {error.filename}: {error.strerror}") from None
     return list(texts)
+
+
+def append_target(scaffold: Scaffold, name: str, folder: Path, *, package: str) -> Path | None:
+    """Append the node's target to the package's CMakeLists.txt; return its path, None if the scaffold has no target.
+
+    Raises:
+        UsageError: the file cannot be written.
+    """
+    if not scaffold.cmake:
+        return None
+    path = folder / "CMakeLists.txt"
+    target = _substitute(
+        (_TEMPLATES / f"{scaffold.cmake}.in").read_text(encoding="utf-8"), {"@NAME@": name, "@PACKAGE@": package}
+    )
+    try:
+        write_atomically(path, (path.read_text(encoding="utf-8") if path.exists() else "") + target)
+    except OSError as error:
+        raise UsageError(f"cannot write {error.filename}: {error.strerror}") from None
+    return path
 
 
 def next_steps(scaffold: Scaffold, name: str, package: str) -> list[str]:
