@@ -9,8 +9,8 @@ import pytest
 from tests.navigation.house import house_map, ranges_at, scan_fields
 
 from trundle.gazebo.nodes.map_server.occupancy_grid import read_map
-from trundle.navigation.mapping.karto import SlamKartoSettings
 from trundle.navigation.mapping.karto_settings import unused_parameters
+from trundle.navigation.mapping.slam_karto import SlamKartoSettings
 from trundle.navigation.settings import read_settings
 from trundle.robots.parameters import ParamError, RosParameters
 from trundle.ros import RosError, StaticTransformBroadcaster, Transform, TransformBroadcaster, TransformListener

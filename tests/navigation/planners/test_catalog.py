@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 
 from trundle.navigation.planners import find_global_planner, find_local_planner
-from trundle.navigation.planners.dwa import DWAPlannerROS, DwaSettings
+from trundle.navigation.planners.dwa_planner import DWAPlannerROS, DwaSettings
 from trundle.navigation.planners.navfn import NavfnROS
-from trundle.navigation.planners.trajectory import TrajectoryPlannerROS
+from trundle.navigation.planners.trajectory_planner import TrajectoryPlannerROS
 from trundle.navigation.settings import read_settings
 from trundle.robots.parameters import ParamError, RosParameters
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from trundle.navigation.costmap import Costmap
 from trundle.navigation.planners import Pose2D
-from trundle.navigation.planners.dwa import DWAPlannerROS
+from trundle.navigation.planners.dwa_planner import DWAPlannerROS
 from trundle.robots.parameters import RosParameters
 
 _LIMITS = {"max_vel_y": 0.0, "min_vel_y": 0.0, "vy_samples": 0, "sim_time": 2.0, "vx_samples": 8}
@@ -19,7 +19,7 @@ _LIMITS = {"max_vel_y": 0.0, "min_vel_y": 0.0, "vy_samples": 0, "sim_time": 2.0,
 
 @pytest.fixture(autouse=True)
 def _no_reconfigure(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("trundle.navigation.planners.dwa.reconfigure", lambda *_: None)
+    monkeypatch.setattr("trundle.navigation.planners.dwa_planner.reconfigure", lambda *_: None)
 
 
 def _planner(**parameters: Any) -> DWAPlannerROS:

@@ -9,7 +9,7 @@ import pytest
 
 from trundle.navigation.costmap import Costmap
 from trundle.navigation.planners import Pose2D
-from trundle.navigation.planners.trajectory import TrajectoryPlannerROS
+from trundle.navigation.planners.trajectory_planner import TrajectoryPlannerROS
 from trundle.robots.parameters import RosParameters
 
 _TURTLEBOT = {
@@ -28,7 +28,7 @@ def test_the_fastest_of_the_velocities_that_end_in_one_cell_is_commanded(
     monkeypatch: pytest.MonkeyPatch, x: float
 ) -> None:
     """Samples are 0.01 m/s apart, ends 0.015 m, and cells are 0.05 m."""
-    monkeypatch.setattr("trundle.navigation.planners.trajectory.reconfigure", lambda *_: None)
+    monkeypatch.setattr("trundle.navigation.planners.trajectory_planner.reconfigure", lambda *_: None)
     log = logging.getLogger("rollout")
     node: Any = SimpleNamespace(
         name="/move_base", log=SimpleNamespace(warn=log.warning, error=log.error), advertise=lambda *_, **__: None

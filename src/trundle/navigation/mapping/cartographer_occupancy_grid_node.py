@@ -10,7 +10,7 @@ from trundle.ros import Node, RosError
 from trundle.spatial import Pose
 
 from ..pose_messages import read_pose
-from .cartographer import read_arguments
+from .cartographer_node import read_arguments
 from .submap_textures import Texture, paint, unpack_texture
 
 _SERVICE = "cartographer_ros_msgs/SubmapQuery"

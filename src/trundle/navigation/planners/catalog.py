@@ -15,8 +15,8 @@ GLOBAL_PLANNERS = {
     "navfn/NavfnROS": "trundle.navigation.planners.navfn:NavfnROS",
 }
 LOCAL_PLANNERS = {
-    "base_local_planner/TrajectoryPlannerROS": "trundle.navigation.planners.trajectory:TrajectoryPlannerROS",
-    "dwa_local_planner/DWAPlannerROS": "trundle.navigation.planners.dwa:DWAPlannerROS",
+    "base_local_planner/TrajectoryPlannerROS": "trundle.navigation.planners.trajectory_planner:TrajectoryPlannerROS",
+    "dwa_local_planner/DWAPlannerROS": "trundle.navigation.planners.dwa_planner:DWAPlannerROS",
 }
 
 

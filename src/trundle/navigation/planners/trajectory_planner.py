@@ -14,7 +14,7 @@ from trundle.ros import Node, TransformBuffer
 
 from ..costmap import CostmapRos
 from ..settings import read_settings, reconfigure
-from .dwa import axis_samples
+from .dwa_planner import axis_samples
 from .followed_plan import distance_fields, lengths_along, point_ahead
 from .follower import Follower
 from .goal_stop import Velocity

@@ -1,2 +1,2 @@
 from .laser_scan_matcher import LaserScanMatcher as LaserScanMatcher
-from .rf2o import Rf2oLaserOdometry as Rf2oLaserOdometry
+from .rf2o_laser_odometry import Rf2oLaserOdometry as Rf2oLaserOdometry
