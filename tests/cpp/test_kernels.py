@@ -1,4 +1,4 @@
-"""The C++ kernels by themselves: clipping, boxes, rays, contacts, controllers' laws, graphs of poses, navigation, arms."""
+"""The C++ kernels by themselves: boxes, rays, contacts, controllers' laws, graphs of poses, navigation, arms."""
 
 import shutil
 import subprocess
