@@ -8,11 +8,10 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.base.diagnostics import UsageError
+from trundle.planning import _planning
+from trundle.planning.planning_scene import PlanningScene, pose_row
 from trundle.spatial import Pose, slerp
 
-from .. import _planning
-from ..planning_scene import PlanningScene
-from ..planning_scene.pieces import pose_row
 from .constraints import Constraints
 from .error_codes import ErrorCode, RequestError
 from .group_problem import NO_CONSTRAINTS, GroupProblem

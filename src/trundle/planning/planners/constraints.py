@@ -4,9 +4,8 @@ from typing import Literal, TypeAlias
 
 from msgspec import Struct
 
+from trundle.planning.planning_scene import PlacedShape
 from trundle.spatial import IDENTITY_QUATERNION, ZERO, Pose, Quaternion, Vector3
-
-from ..planning_scene import PlacedShape
 
 OrientationParameterization: TypeAlias = Literal["xyz_euler_angles", "rotation_vector"]
 ViewDirection: TypeAlias = Literal["z", "y", "x"]

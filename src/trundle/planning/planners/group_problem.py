@@ -6,11 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.base.diagnostics import UsageError, no_such
+from trundle.planning import _planning
+from trundle.planning.planning_scene import PlanningScene, pieces_of, pose_row
 from trundle.spatial import Pose, quaternion_product
 
-from .. import _planning
-from ..planning_scene import PlanningScene
-from ..planning_scene.pieces import pieces_of, pose_row
 from .constraints import Constraints, OrientationConstraint, PositionConstraint, VisibilityConstraint
 from .error_codes import ErrorCode, RequestError
 from .requests import PlannerSettings, Positions, WorkspaceBounds

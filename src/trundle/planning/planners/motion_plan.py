@@ -4,8 +4,9 @@ import time
 
 import numpy as np
 
-from .. import _planning
-from ..planning_scene import PlanningScene
+from trundle.planning import _planning
+from trundle.planning.planning_scene import PlanningScene
+
 from .error_codes import ErrorCode, PlanningFailure, RequestError
 from .group_problem import GroupProblem
 from .planner_names import ALGORITHMS, SEQUENTIAL, find_algorithm

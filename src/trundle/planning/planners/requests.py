@@ -7,10 +7,10 @@ import numpy as np
 from msgspec import Struct, field
 from numpy.typing import NDArray
 
+from trundle.planning._planning import CancelFlag
+from trundle.planning.trajectories import Trajectory
 from trundle.spatial import Vector3
 
-from .._planning import CancelFlag
-from ..trajectories import Trajectory
 from .constraints import Constraints
 
 Positions: TypeAlias = NDArray[np.float64]

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from .. import _planning
-from ..planning_scene import PlanningScene
+from trundle.planning import _planning
+from trundle.planning.planning_scene import PlanningScene
+
 from .error_codes import ErrorCode, RequestError
 from .group_problem import GroupProblem
 from .requests import MotionPlanRequest, Positions

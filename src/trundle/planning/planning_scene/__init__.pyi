@@ -7,7 +7,7 @@ from .objects import (
     ShapeGeometry as ShapeGeometry,
     Voxels as Voxels,
 )
-from .pieces import MAX_TRIANGLES as MAX_TRIANGLES
+from .pieces import MAX_TRIANGLES as MAX_TRIANGLES, pieces_of as pieces_of, pose_row as pose_row
 from .scene import (
     MAX_OBJECTS as MAX_OBJECTS,
     MAX_VOXELS as MAX_VOXELS,

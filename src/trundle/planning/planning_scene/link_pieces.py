@@ -8,12 +8,12 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.base.diagnostics import Diagnostics, TrundleError
+from trundle.planning._planning import CollisionShape, box_shape, cylinder_shape, hull_shape, sphere_shape
 from trundle.robots.meshes import Mesh, load_mesh
 from trundle.robots.packages import Packages
 from trundle.robots.robot import RobotBox, RobotCylinder, RobotLink, RobotMesh, RobotShape, RobotSphere
 from trundle.sim.physics import MAX_CORNERS, hull_corners, moving_pieces
 
-from .._planning import CollisionShape, box_shape, cylinder_shape, hull_shape, sphere_shape
 from .pieces import Pieces, pose_row
 
 

@@ -8,12 +8,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.base.diagnostics import UsageError
-from trundle.robots.meshes import Mesh, MeshError, check_vertices
-from trundle.robots.model import Box, Cone, Cylinder, Plane, Sphere
-from trundle.sim.physics import MAX_CORNERS, convex_parts, hull_corners, moving_pieces
-from trundle.spatial import Pose, rotation_from_z
-
-from .._planning import (
+from trundle.planning._planning import (
     CollisionShape,
     box_shape,
     cylinder_shape,
@@ -22,6 +17,11 @@ from .._planning import (
     sphere_shape,
     surface_shape,
 )
+from trundle.robots.meshes import Mesh, MeshError, check_vertices
+from trundle.robots.model import Box, Cone, Cylinder, Plane, Sphere
+from trundle.sim.physics import MAX_CORNERS, convex_parts, hull_corners, moving_pieces
+from trundle.spatial import Pose, rotation_from_z
+
 from .objects import PlacedShape, ShapeGeometry
 
 MAX_TRIANGLES = 200_000

@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 
 from trundle.base.built import refuse_stale
 from trundle.base.diagnostics import Diagnostics, UsageError, no_such
+from trundle.planning import _planning
+from trundle.planning.kinematics import Kinematics
+from trundle.planning.robot_model import RobotModel
 from trundle.robots.packages import Packages
 from trundle.sim.physics import ShapePair, mujoco_addresses
 from trundle.spatial import Pose
 
-from .. import _planning
-from ..kinematics import Kinematics
-from ..robot_model import RobotModel
 from .allowed_collisions import AllowedCollisionMatrix
 from .contacts import BodyType, Contact, NearestBodies
 from .link_pieces import LinkGeometry, link_geometry

@@ -8,9 +8,9 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.base.diagnostics import UsageError
+from trundle.planning import _planning
+from trundle.planning.robot_model import RobotModel
 
-from .. import _planning
-from ..robot_model import RobotModel
 from .trajectory import Trajectory
 
 Method: TypeAlias = Literal["time_optimal", "iterative_parabolic"]

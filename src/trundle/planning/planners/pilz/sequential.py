@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.base.diagnostics import UsageError
+from trundle.planning import _planning
+from trundle.planning.planning_scene import PlanningScene
+from trundle.planning.trajectories import Trajectory, motion_limits, parameterize
 from trundle.spatial import Pose
 
-from ... import _planning
-from ...planning_scene import PlanningScene
-from ...trajectories import Trajectory, motion_limits, parameterize
 from ..cartesian_lines import NO_BOUNDS, follow, tip_of
 from ..constraints import Constraints
 from ..error_codes import ErrorCode, RequestError
