@@ -39,9 +39,9 @@ def test_flat_and_degenerate_meshes_are_checked() -> None:
         (np.zeros((1, 3)), np.zeros(1)),
     ],
 )
-def test_voxels_that_cannot_be_are_refused(centers: np.ndarray, sizes: np.ndarray) -> None:  # pyright: ignore
+def test_voxels_that_cannot_be_are_refused(centers: np.ndarray, sizes: np.ndarray) -> None:
     with pytest.raises(UsageError, match=r"voxels"):
-        scene_with().set_voxels(Voxels(centers, sizes))  # pyright: ignore
+        scene_with().set_voxels(Voxels(centers, sizes))
 
 
 def _random_scene(rng: np.random.Generator) -> PlanningScene:
