@@ -97,9 +97,9 @@ class CurrentStateMonitor:
             self._positions[self._model.variable_index(variable)] = value
         self._stamps_ns[joint.name] = transform.stamp_ns
 
-    def missing(self) -> list[str]:
-        """Return the joints that nothing has reported yet."""
-        return [name for name in self._needed if name not in self._stamps_ns]
+    def stale(self, since_ns: int) -> list[str]:
+        """Return the joints of which nothing newer is known."""
+        return [name for name in self._needed if self._stamps_ns.get(name, 0) < since_ns]
 
     def stamp_ns(self) -> int:
         """Return the time of the oldest position; 0 if one is unknown."""
@@ -114,7 +114,3 @@ class CurrentStateMonitor:
                 return False
             await asyncio.sleep(_POLL_S)
         return True
-
-    async def wait_complete(self, wait_s: float) -> bool:
-        """Wait until every joint was reported once; False if that takes more than `wait_s` (ROS time)."""
-        return await self.wait_since(1, wait_s)

@@ -3,6 +3,7 @@
 import asyncio
 import time
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
@@ -41,6 +42,8 @@ _PILZ = "pilz_industrial_motion_planner"
 _PILZ_PLANNERS = ("PTP", "LIN", "CIRC")
 _DEFAULT_TIME_S = 5.0
 _MAX_TIME_S = 600.0
+_MAX_STEP = 0.05
+"""Greatest step of a joint between points of a trajectory [rad] or [m]."""
 
 
 class Pipeline:
@@ -373,7 +376,7 @@ class Pipelines:
         if len(positions) < 2 or np.allclose(positions, positions[0], atol=1e-9):
             return JointPath(joints=tuple(variables), times_s=np.zeros(1), positions=positions[:1])
         made = parameterize(
-            positions,
+            _dense(positions) if method == "iterative_parabolic" else positions,
             motion_limits(self.model, variables),
             velocity_scaling=velocity_scaling,
             acceleration_scaling=acceleration_scaling,
@@ -435,6 +438,18 @@ class Pipelines:
             contents.allowed = allowed
         scene = self.scene(contents, start)
         return await asyncio.to_thread(self._is_free, scene, path, start, group)
+
+
+def _dense(positions: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return a path (n, joints) with points between, as the original has: controllers draw splines through them, which
+    leave the straight ways of far points.
+    """
+    parts = [positions[:1]]
+    for before, after in pairwise(positions):
+        count = max(1, int(np.ceil(np.abs(after - before).max() / _MAX_STEP)))
+        shares = np.arange(1, count + 1)[:, None] / count
+        parts.append(before + shares * (after - before))
+    return np.vstack(parts)
 
 
 def _scaling(value: float) -> float:

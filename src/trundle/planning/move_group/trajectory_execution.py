@@ -159,7 +159,11 @@ class TrajectoryExecution:
         if tolerance == 0.0 and not self._joint_tolerances:
             return True
         if not await self._monitor.wait_since(self._node.clock.now_ns(), _STATE_WAIT_S):
-            self._node.log.warn("Failed to validate trajectory: couldn't receive full current joint state within 1s")
+            missing = ", ".join(self._monitor.stale(self._node.clock.now_ns() - round(_STATE_WAIT_S * NS_PER_S)))
+            self._node.log.warn(
+                "Failed to validate trajectory: couldn't receive full current joint state within 1s; nothing new of "
+                f"{missing or 'any joint'}"
+            )
             return False
         present = self._monitor.positions()
         for name, expected in zip(path.joints, path.positions[0], strict=True):

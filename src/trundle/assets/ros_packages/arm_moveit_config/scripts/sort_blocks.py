@@ -121,8 +121,8 @@ def places(color, number):
     result = []
     for turn in np.linspace(-math.pi, math.pi, 8, endpoint=False):
         place = PlaceLocation()
-        place.place_pose = stamped(x, y + (-0.04, 0.04)[number % 2], TRAY_TOP + BLOCK / 2 + 0.004, turn)
-        place.post_place_posture = posture(OPEN, 0.8)
+        place.place_pose = stamped(x, y + (-0.06, 0.06)[number % 2], TRAY_TOP + BLOCK / 2 + 0.004, turn)
+        place.post_place_posture = posture(0.035, 0.8)
         for way, z in ((place.pre_place_approach, -1.0), (place.post_place_retreat, 1.0)):
             way.direction.header.frame_id, way.direction.vector.z = FRAME, z
             way.min_distance, way.desired_distance = 0.05, 0.1
@@ -135,13 +135,13 @@ def main():
     rospy.init_node("sort_blocks")
     arm = moveit_commander.MoveGroupCommander("arm", wait_for_servers=60)
     scene = moveit_commander.PlanningSceneInterface()
-    arm.set_max_velocity_scaling_factor(0.6)
-    arm.set_max_acceleration_scaling_factor(0.6)
+    arm.set_max_velocity_scaling_factor(1.0)
+    arm.set_max_acceleration_scaling_factor(1.0)
     arm.set_planning_time(5.0)
 
     scene.add_box("table", stamped(0.55, 0.0, TABLE_TOP / 2), (0.4, 0.8, TABLE_TOP))
     for color, (x, y) in TRAYS.items():
-        scene.add_box(f"{color}_tray", stamped(x, y, TRAY_TOP / 2), (0.16, 0.16, TRAY_TOP))
+        scene.add_box(f"{color}_tray", stamped(x, y, TRAY_TOP / 2), (0.16, 0.24, TRAY_TOP))
     scene.add_box("floor", stamped(0.0, 0.0, -0.011), (2.0, 2.0, 0.02))
 
     arm.set_joint_value_target([1.2, -0.6, 1.6, 0.0, 1.0, 0.0])  # out of the picture
