@@ -23,7 +23,7 @@ REASONS = Counter(
         "stable-baselines3": 1,  # tests/gym has it
         "the cart, which is built by hand above": 1,  # tests/page/test_user_builds_a_cart.py builds it
         "the net": 11,
-        "the robot above": 2,  # tests/navigation/move_base drives another one
+        "the robot above": 3,  # tests/navigation/move_base and tests/planning/move_group drive others
         "the tutorial's files": 1,  # tests/system/test_smartcar.py has them
     }
 )
