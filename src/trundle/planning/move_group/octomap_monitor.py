@@ -17,7 +17,7 @@ from trundle.spatial import NS_PER_S, Pose
 from .occupancy import OccupancyGrid
 from .planning_scene_monitor import PlanningSceneMonitor
 from .robot_filter import RobotFilter
-from .scene import pose_fields
+from .scene import FrameError, pose_fields
 
 if TYPE_CHECKING:
     from trundle.ros import Message
@@ -75,16 +75,15 @@ class OctomapMonitor:
     ) -> None:
         monitor = self._monitor
         root = monitor.model.model_frame
+        frames = monitor.frames()
         try:
-            found = monitor.buffer.lookup_transform(root, frame, stamp_ns)
-        except RosError:
+            model_from_sensor = monitor.buffer.lookup_transform(root, frame, stamp_ns).pose
+        except RosError:  # not at that time, or nobody publishes tf
             try:
-                found = monitor.buffer.lookup_transform(root, frame)
-            except RosError as error:
+                model_from_sensor = frames.find(frame)
+            except FrameError as error:
                 self._node.log.warn(f"Transform error of sensor data: {error}; quitting callback")
                 return
-        model_from_sensor = found.pose
-        frames = monitor.frames()
         poses = {name: frames.link(name) for name in monitor.model.links}
         contents = monitor.contents
         message = await asyncio.to_thread(
