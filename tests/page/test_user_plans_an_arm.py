@@ -10,6 +10,7 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 from scipy import ndimage
+from tests.page.axe import assert_accessible, load_axe, needs_axe
 from tests.page.built_client import needs_client
 from tests.page.panel_user import PATIENCE_MS, PanelUser
 from tests.system.browser import running_page
@@ -164,6 +165,20 @@ def test_an_object_in_the_arm_is_a_collision_that_is_named(user: ArmUser, tmp_pa
     user.button("Publish").click()
     user.until(lambda: "in collision" not in user.alert, what="for the free goal")
     user.section("Planning")
+
+
+@needs_axe
+def test_every_section_is_accessible(user: ArmUser) -> None:
+    load_axe(user.page)
+    for section in ("Joints", "Scene Objects", "Context", "Planning"):
+        user.section(section)
+        assert_accessible(user.page, section)
+    user.section("Scene Objects")
+    user.button("Add an object").click()
+    user.page.get_by_role("menuitem", name="Sphere", exact=True).click()
+    user.sees("1 change, not published")
+    assert_accessible(user.page, "an object")
+    user.button("Discard").click()
 
 
 def test_the_arm_is_dragged_with_a_finger(chromium: Any, address: str) -> None:

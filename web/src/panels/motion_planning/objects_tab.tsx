@@ -43,8 +43,11 @@ export function ObjectsTab(props: TabProps): JSX.Element {
         <Controls page={page}>
           <Head {...props} objects={objects} />
         </Controls>
-        <div class="scroll objectlist" role="listbox" aria-label="Scene objects">
-          {free.size + attached.size === 0 && <div class="empty">The scene has no objects.</div>}
+        {free.size + attached.size === 0 && <div class="empty">The scene has no objects.</div>}
+        <div
+          class="scroll objectlist"
+          {...(free.size > 0 && ({ role: "listbox", "aria-label": "Scene objects" } as const))}
+        >
           {[...free.keys()].map((id) => (
             <button
               key={id}
