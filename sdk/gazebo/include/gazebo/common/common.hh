@@ -2,6 +2,8 @@
 #ifndef GAZEBO_COMMON_COMMON_HH_
 #define GAZEBO_COMMON_COMMON_HH_
 
+#include <boost/lexical_cast.hpp>  // plugins use it without including it
+
 #include <gazebo/common/Assert.hh>
 #include <gazebo/common/Color.hh>
 #include <gazebo/common/CommonTypes.hh>
