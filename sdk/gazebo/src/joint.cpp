@@ -86,6 +86,8 @@ void Joint::SetVelocity(unsigned int axis, double velocity) {
 }
 
 void Joint::SetForce(unsigned int axis, double effort) {
+  const double limit = effort_limit_[Index(axis)];
+  if (limit >= 0.0) effort = std::min(std::max(effort, -limit), limit);
   const TrundleGazeboHost* host = world_->Host();
   if (host->write(host->self, TRUNDLE_ADD_EFFORT, Number(), static_cast<int>(axis), &effort, 1))
     effort_[Index(axis)] += effort;

@@ -56,6 +56,8 @@ class Joint : public Base {
   void SetUpperLimit(unsigned int axis, double limit);
   void SetLowerLimit(unsigned int axis, double limit);
   double GetEffortLimit(unsigned int axis) { return effort_limit_[Index(axis)]; }
+  // Bounds the efforts of SetForce; negative: no bound.
+  void SetEffortLimit(unsigned int axis, double limit) { effort_limit_[Index(axis)] = limit; }
   double GetVelocityLimit(unsigned int axis) { return velocity_limit_[Index(axis)]; }
   double GetDamping(unsigned int axis) { return damping_[Index(axis)]; }
   // "vel" and "fmax": the motor's speed and largest effort; "hi_stop", "lo_stop": limits.
