@@ -27,6 +27,11 @@ class Vector3 {
   Vector3() : data{T(0), T(0), T(0)} {}
   Vector3(const T& x, const T& y, const T& z) : data{x, y, z} {}
 
+  // All three.
+  Vector3& operator=(T value) {
+    data[0] = data[1] = data[2] = value;
+    return *this;
+  }
   void Set(T x = 0, T y = 0, T z = 0) {
     data[0] = x;
     data[1] = y;
