@@ -53,6 +53,18 @@ def test_a_built_program_runs_if_there_is_no_stand_in(tmp_path: Path, sources: s
     assert find_node("moveit_servo", "moveit_servo", lambda _: folder, env=env) == Executable(script)
 
 
+def test_what_a_workspace_compiled_is_preferred_to_a_stand_in(tmp_path: Path) -> None:
+    """People who build amcl from its sources mean to run that."""
+    folder = tmp_path / "ws/src/navigation/amcl"
+    folder.mkdir(parents=True)
+    installed = program(tmp_path / "ros/lib/amcl/amcl")
+    env = {"CMAKE_PREFIX_PATH": str(tmp_path / "ros")}
+    assert isinstance(find_node("amcl", "amcl", lambda _: folder, env=env), BuiltinReplacement), installed
+
+    built = program(tmp_path / "ws/devel/lib/amcl/amcl")
+    assert find_node("amcl", "amcl", lambda _: folder, env=env) == Executable(built)
+
+
 def test_a_stand_in_is_preferred_to_an_installed_program(tmp_path: Path) -> None:
     """Debian's rviz is a program in /usr/share/rviz."""
     program(tmp_path / "lib/rviz/rviz")

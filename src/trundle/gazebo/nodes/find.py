@@ -76,7 +76,8 @@ def find_node(
     """Find a node: an executable in the package's folder, a built-in replacement, or a program in a build folder.
 
     A replacement takes precedence over programs of installed packages, since its window needs no display and its
-    messages no sockets. It also replaces scripts of a source workspace whose ROS modules (rospy, messages) are missing.
+    messages no sockets; not over those that a source workspace has compiled, which people build to run them. It also
+    replaces scripts of a source workspace whose ROS modules (rospy, messages) are missing.
 
     Args:
         package: package name.
@@ -102,6 +103,10 @@ def find_node(
             elif target is None or (folder.parent.name != "share" and can_run(path, env)):
                 return Executable(path)
     if target is not None:
+        own = () if folder is None or folder.parent.name == "share" else _built_programs(package, type_name, folder, {})
+        for built in own:
+            if compiled_fault(built, env) is None:
+                return Executable(built)
         if type_name == "nodelet" and (program := _compiled_nodelet(arguments, find_package, env)) is not None:
             return Executable(program)
         missing = _find_missing_nodelet(arguments, find_package, env, command_line) if type_name == "nodelet" else None
