@@ -21,6 +21,7 @@ if(CATKIN_ENABLE_TESTING)
   catkin_add_gtest(sums test/sums.cpp)
   target_link_libraries(sums ${catkin_LIBRARIES})
   catkin_add_nosetests(test/test_words.py)
+  add_executable(helper EXCLUDE_FROM_ALL test/sums.cpp)
 endif()
 """
 _SUMS = """\
@@ -52,14 +53,16 @@ def test_tests_run_and_a_failed_one_is_in_the_results(tmp_path: Path) -> None:
     (package / "test/sums.cpp").write_text(_SUMS)
     (package / "test/test_words.py").write_text(_WORDS)
     environment = {name: value for name, value in os.environ.items() if name != "CMAKE_PREFIX_PATH"}
-    done = subprocess.run(
-        [sys.executable, "-m", "trundle", "--as", "catkin_make", "run_tests"],
-        cwd=tmp_path,
-        env={**environment, "PWD": str(tmp_path)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+
+    def make(*targets: str) -> "subprocess.CompletedProcess[str]":
+        command = [sys.executable, "-m", "trundle", "--as", "catkin_make", *targets]
+        env = {**environment, "PWD": str(tmp_path)}
+        return subprocess.run(command, cwd=tmp_path, env=env, capture_output=True, text=True, check=False)
+
+    built = make()
+    assert built.returncode == 0, built.stdout + built.stderr
+    assert "program helper (test/sums.cpp; src/tested/CMakeLists.txt:10): not in this build" in built.stdout
+    done = make("run_tests")
     output = done.stdout + done.stderr
 
     results = ET.parse(tmp_path / "build/tested/test_results/tested/gtest-sums.xml").getroot()

@@ -107,7 +107,7 @@ def build_workspace(args: argparse.Namespace) -> int:
         build = report_package(known, name, os.environ)
         remaining = [target for target in build.targets if target.built is None or target.fault is not None]
         print("\n".join(_lines(build, workspace, results.get(name))))
-        unbuilt += remaining
+        unbuilt += [] if _is_complete(results.get(name)) else remaining
     if unbuilt:
         them = f"{len(unbuilt)} C++ target{'s are' if len(unbuilt) > 1 else ' is'} not built"
         print(f"-- {them}; all else runs as it is{f'; {fault}' if fault else ''}", file=sys.stderr)
@@ -196,6 +196,11 @@ def _select(packages: Mapping[str, Path], names: list[str]) -> dict[str, Path]:
     return {name: folder for name, folder in packages.items() if not names or name in names}
 
 
+def _is_complete(result: "BuildResult | None") -> bool:
+    """True if all that CMake defined is built; CMakeLists.txt may name more, such as tests."""
+    return result is not None and result.is_configured and not result.failures
+
+
 def _lines(build: "PackageBuild", workspace: "Workspace", result: "BuildResult | None") -> list[str]:
     ready = ", ".join(build.ready) or "nothing to run"
     lines = [f"--   needs no building: {ready}"]
@@ -204,6 +209,8 @@ def _lines(build: "PackageBuild", workspace: "Workspace", result: "BuildResult |
         kind = "library" if target.is_library else "program"
         location = f"{os.path.relpath(target.target.file, workspace.base)}:{target.target.line}"
         state = f"built: {target.built}" if target.built is not None else "C++, not built"
+        if target.built is None and _is_complete(result):
+            state = "not in this build: a test, or CMakeLists.txt has a condition"
         state += f", but not for this machine: {target.fault}" if target.fault is not None else ""
         if failure := failures.get(target.target.target) or failures.get(target.target.name):
             state = f"not built: {failure}"
