@@ -50,17 +50,17 @@ class Projection(Struct, frozen=True, kw_only=True):
     __module__ = "trundle"
 
     fx: float
-    """P[0, 0] [px]."""
+    """Element (0, 0) of P [px]."""
     fy: float
-    """P[1, 1] [px]."""
+    """Element (1, 1) of P [px]."""
     cx: float
-    """P[0, 2] [px]."""
+    """Element (0, 2) of P [px]."""
     cy: float
-    """P[1, 2] [px]."""
+    """Element (1, 2) of P [px]."""
     tx: float = 0.0
-    """P[0, 3] [px·m]; of the second camera of a stereo pair −fx times the baseline."""
+    """Element (0, 3) of P [px·m]; of the second camera of a stereo pair −fx times the baseline."""
     ty: float = 0.0
-    """P[1, 3] [px·m]."""
+    """Element (1, 3) of P [px·m]."""
 
 
 class Lens(Struct, frozen=True, kw_only=True):
