@@ -1,10 +1,11 @@
-"""The documentation's site builds without warnings and loads nothing from other servers."""
+"""The documentation's site builds without warnings, loads nothing from other servers, and fits every window."""
 
 import http.server
 import re
 import subprocess
 import sys
 import threading
+from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -23,6 +24,22 @@ _LOADED = re.compile(
     r"|url\(\s*[\"']?([^\"')\s]+)|@import\s+[\"']([^\"']+)"
 )
 """URLs in elements that a browser loads automatically."""
+_FAULTS = """() => {
+  const CODE_PADDING = 8;  // of code that breaks, beyond the line's end [px]
+  const found = [], shown = (element) => element.getClientRects().length > 0;
+  const say = (what, element) => found.push(`${what}: ${element.textContent.trim().slice(0, 60)}`);
+  const { scrollWidth } = document.documentElement, content = document.querySelector(".md-content");
+  if (scrollWidth > innerWidth) found.push(`the page is ${scrollWidth} px wide`);
+  for (const name of content.querySelectorAll("code.name"))
+    if (name.getClientRects().length > 1) say("a name is broken", name);
+  for (const cell of content.querySelectorAll("td, th, h1, h2, h3, h4, h5, p, li"))
+    if (shown(cell) && cell.scrollWidth > cell.clientWidth + CODE_PADDING && cell.clientWidth > 0
+        && getComputedStyle(cell).display !== "inline") say("too wide for its place", cell);
+  for (const picture of content.querySelectorAll("img, video, svg"))
+    if (picture.getBoundingClientRect().right > innerWidth + 1) found.push(`a picture is cut: ${picture.src}`);
+  return found;
+}"""
+"""What is cut or broken on a page, in sentences."""
 
 
 @pytest.fixture(scope="module")
@@ -51,7 +68,7 @@ def test_pages_link_only_existing_local_files(site: Path) -> None:
 
 def test_references_have_generated_content(site: Path) -> None:
     def page(name: str) -> str:
-        return (site / f"reference/{name}.html").read_text()
+        return (site / f"reference/{name}.html").read_text().replace("<wbr>", "")  # in paths
 
     assert "libgazebo_ros_diff_drive.so" in page("plugins")
     assert "topic_tools/throttle" in page("nodes")
@@ -64,23 +81,50 @@ def test_references_have_generated_content(site: Path) -> None:
     assert 'id="trundle.Simulation.run"' in page("python")
 
 
-@pytest.mark.browser
-def test_the_site_loads_nothing_from_other_hosts(site: Path, chromium: Any) -> None:
-    handler = partial(http.server.SimpleHTTPRequestHandler, directory=str(site))
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
+class _Quiet(http.server.SimpleHTTPRequestHandler):
+    """Serves files without a line for each."""
+
+    def log_message(self, format: str, *args: object) -> None: ...
+
+
+@pytest.fixture(scope="module")
+def origin(site: Path) -> Iterator[str]:
+    """Origin of a server of the site."""
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), partial(_Quiet, directory=str(site)))
     threading.Thread(target=server.serve_forever, daemon=True).start()
-    try:
-        origin = f"http://127.0.0.1:{server.server_port}"
-        page = chromium.new_page()
-        requests: list[str] = []
-        failed: list[str] = []
-        page.on("request", lambda request: requests.append(request.url))
-        page.on("response", lambda response: failed.append(response.url) if response.status >= 400 else None)
-        for name in ("index", "start", "reference/sdf", "howto/see"):
-            page.goto(f"{origin}/{name}.html", wait_until="networkidle")
-        assert len(requests) > 10
-        assert [url for url in requests if not url.startswith((origin, "data:", "blob:"))] == []
-        assert failed == []
-    finally:
-        server.shutdown()
-        server.server_close()
+    yield f"http://127.0.0.1:{server.server_port}"
+    server.shutdown()
+    server.server_close()
+
+
+@pytest.mark.browser
+def test_the_site_loads_nothing_from_other_hosts(origin: str, chromium: Any) -> None:
+    page = chromium.new_page()
+    requests: list[str] = []
+    failed: list[str] = []
+    page.on("request", lambda request: requests.append(request.url))
+    page.on("response", lambda response: failed.append(response.url) if response.status >= 400 else None)
+    for name in ("index", "start", "reference/sdf", "howto/see"):
+        page.goto(f"{origin}/{name}.html", wait_until="networkidle")
+    page.close()
+    assert len(requests) > 10
+    assert [url for url in requests if not url.startswith((origin, "data:", "blob:"))] == []
+    assert failed == []
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("width", [1440, 390])
+def test_nothing_is_cut_on_any_page(site: Path, origin: str, chromium: Any, width: int) -> None:
+    """Neither the page nor a cell of a table scrolls sideways, and no line breaks within a name."""
+    page = chromium.new_page(viewport={"width": width, "height": 900})
+    page.set_default_timeout(300_000)
+    faults: list[str] = []
+    pages = sorted(file.relative_to(site).as_posix() for file in site.rglob("*.html"))
+    for name in pages:
+        if name != "404.html":
+            page.goto(f"{origin}/{name}", wait_until="load")
+            faults += [f"{name}: {fault}" for fault in page.evaluate(_FAULTS)]
+    page.close()
+
+    assert len(pages) > 80
+    assert faults == []

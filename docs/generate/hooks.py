@@ -44,7 +44,9 @@ PAGES: dict[str, Callable[[], str]] = {
 LESSONS = ROOT / "src/trundle/assets/lessons"
 """Lessons of the page, which are also tutorials here."""
 _CHECKS = re.compile(r"^```(check|look)\n.*?^```\n\n?", re.MULTILINE | re.DOTALL)
-_NAME = re.compile(r"<code>([^\s<]{1,40})</code>")
+_NAME = re.compile(r"<code>([^\s<]{1,36})</code>")
+"""Names that fit a line of a phone, also in a list."""
+_PATH = re.compile(r"<code>([^\s<]*/[^\s<]*)</code>")
 _TABLE = re.compile(r"<table>(.*?)</table>", re.DOTALL)
 ROOT_PAGES = ("ARCHITECTURE.md", "CONTRIBUTING.md", "RELEASING.md", "SECURITY.md")
 """Files next to docs/ that are also pages."""
@@ -73,7 +75,8 @@ def on_page_markdown(markdown: str, **_: object) -> str:
 
 
 def on_page_content(html: str, **_: object) -> str:
-    """Mark names, which a line must not break, and give the cells of tables their headings for narrow screens."""
+    """Mark names, which a line must not break, and paths, which it may after a slash; give cells their headings."""
+    html = _PATH.sub(lambda path: f'<code class="path">{path[1].replace("/", "/<wbr>")}</code>', html)
     return _TABLE.sub(_with_headings, _NAME.sub(r'<code class="name">\1</code>', html))
 
 
