@@ -1,14 +1,16 @@
 """Debian's rviz and the page draw the same file on the same graph, display by display."""
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 import pytest
 from tests.graphs import running_graph
 from tests.page.picture_case import Case
-from tests.page.picture_cases import CASES, REMAPPINGS
+from tests.page.picture_cases import ALONE, CASES, REMAPPINGS, TOGETHER
 from tests.page.picture_pair import MESHES, OUT, Pair, publish_cases
 from tests.page.real_rviz import INSTALLED, NOT_INSTALLED, RealRviz
+from tests.page.ros2_spelling import ros2_spelling
 
 from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, Session
@@ -38,6 +40,19 @@ def test_the_page_draws_what_rviz_draws(pair: Pair, case: Case) -> None:
     result = pair.agreement(case)
 
     assert result, f"{case.name}: {result}; see {OUT / case.name}.png"
+
+
+_OF_EACH_CLASS = list({case.display["Class"]: case for case in reversed(ALONE)}.values())
+
+
+@pytest.mark.parametrize("case", [*reversed(_OF_EACH_CLASS), *TOGETHER], ids=lambda case: case.name)
+def test_a_file_of_ros_2_looks_as_one_of_ros_1(pair: Pair, case: Case) -> None:
+    """rviz has the display as ROS 1 writes it, the page as ROS 2 does."""
+    spelled = replace(case, display=ros2_spelling(case.display), real=case.real or case.display)
+
+    result = pair.agreement(replace(spelled, name=f"{case.name} of ROS 2"))
+
+    assert result, f"{case.name}: {result}; see {OUT / case.name} of ROS 2.png"
 
 
 @pytest.mark.parametrize(
