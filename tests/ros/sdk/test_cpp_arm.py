@@ -1,6 +1,9 @@
 """Arms in compiled programs: robot model, states, inverse kinematics, trajectories."""
 
 import re
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 from tests.graphs import Graph
@@ -89,3 +92,31 @@ def test_a_fault_of_the_semantic_description_is_named(running: Running, graph: G
     _describe(graph, srdf)
 
     assert fault in _started(running, "arm")
+
+
+def test_a_program_moves_an_arm_by_move_group(running: Running, tmp_path: Path) -> None:
+    words = ["launch", "arm_moveit_config", "demo.launch", "use_rviz:=false", "--headless", "--port", "0"]
+    environment = {**running.environment, "ROS_HOME": str(tmp_path)}
+    command = [sys.executable, "-m", "trundle", *words]
+    with subprocess.Popen(
+        command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+    ) as launch:
+        try:
+            output = _started(running, "mover")
+        finally:
+            launch.terminate()
+        assert launch.stdout is not None
+        log = launch.stdout.read()
+    lines = [line for line in output.splitlines() if not re.match(r"\S*\[", line)]
+
+    assert lines == [
+        "arm foot hand_link",
+        "named 1",
+        "table 1 1",
+        "plan 1 1",
+        "execute 1",
+        "reached 1",
+        "cartesian 1",
+        "far 0",
+        "cleared 0",
+    ], output + log

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <boost/thread.hpp>
-#include <boost/scoped_ptr.hpp>
 #include <actionlib_msgs/GoalID.h>
 #include <actionlib_msgs/GoalStatusArray.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <boost/scoped_ptr.hpp>
+#include <boost/thread.hpp>
 
 #include <condition_variable>
 #include <mutex>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <boost/thread.hpp>
 #include <actionlib_msgs/GoalID.h>
 #include <actionlib_msgs/GoalStatusArray.h>
 #include <ros/ros.h>
+#include <boost/thread.hpp>
 
 #include <list>
 #include <mutex>

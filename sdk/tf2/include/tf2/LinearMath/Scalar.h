@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cfloat>
-#include <cstdlib>
 #include <cmath>
+#include <cstdlib>
 
 typedef double tf2Scalar;
 

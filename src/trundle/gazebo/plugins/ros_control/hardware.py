@@ -45,7 +45,7 @@ class JointHardware(ServoJoint):
         )
         self.handle = handle
         self.name = handle.name
-        self.interface = interface
+        self.interface: Interface = interface
 
     def rebind(self) -> None:
         """Use the joint's new handle, after models were spawned, deleted or edited."""

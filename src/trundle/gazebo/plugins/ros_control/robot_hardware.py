@@ -16,6 +16,7 @@ from ..compiled import CompiledPlugins, start_ros
 from ._compiled_control import CompiledRobot, kit_folder, open_library
 from .exported_class import ExportedClass, exported_classes, library_of
 from .hardware import INTERFACE_NUMBERS, JointHardware
+from .transmissions import Interface
 
 
 def find_hardware(kind: str, sim: Simulation, model: ModelHandle) -> ExportedClass | None:
@@ -58,7 +59,7 @@ def load_hardware(
 
 def connect_joints(robot: CompiledRobot, model: ModelHandle, *, lag_s: float) -> dict[str, JointHardware]:
     """Return the hardware's joints that the model has, which read and write the hardware's numbers."""
-    interfaces = {number: name for name, number in INTERFACE_NUMBERS.items()}
+    interfaces: dict[int, Interface] = {number: name for name, number in INTERFACE_NUMBERS.items()}
     joints: dict[str, JointHardware] = {}
     handles = {joint.name: joint for joint in model.joints}
     for name, number in robot.names:
