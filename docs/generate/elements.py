@@ -32,7 +32,8 @@ _SAVED = ("state", "model_state", "link_state", "joint_state", "light_state")
 """Tables of the specification about a <state>."""
 _WITHOUT_EFFECT = {
     "joint/calibration": "for real hardware",
-    "joint/safety_controller": "for ros_control on real hardware",
+    "joint/safety_controller@k_velocity": "for ros_control on real hardware",
+    "joint/safety_controller@k_position": "for ros_control on real hardware",
 }
 _CONDITIONS = {
     "is for wide-angle cameras": "read by wide-angle cameras only",

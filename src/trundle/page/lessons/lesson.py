@@ -11,6 +11,7 @@ PagePart: TypeAlias = Literal[
     "play", "clock", "reset", "world", "displays", "insert", "inspector", "views", "tools", "drive", "cameras",
     "plots", "topics", "log", "graph", "timeline", "compare", "performance", "images", "nodes", "services",
     "parameters", "tf_tree", "reconfigure", "joints", "steering", "joystick", "terminal", "navigation",
+    "motion_planning",
 ]  # fmt: skip
 """Part of the page: of its bar, its side panels, the scene, and the panels of its dock."""
 
