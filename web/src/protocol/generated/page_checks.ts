@@ -617,6 +617,7 @@ export const lessonStep: is.Check<page.LessonStep> = is.struct(() => ({
       "joints",
       "joystick",
       "log",
+      "motion_planning",
       "navigation",
       "nodes",
       "parameters",

@@ -918,6 +918,7 @@ export interface LessonStep {
     | "joints"
     | "joystick"
     | "log"
+    | "motion_planning"
     | "navigation"
     | "nodes"
     | "parameters"
