@@ -12,7 +12,13 @@ _FINGERS = ["left_finger_joint", "right_finger_joint"]
 
 
 def start_arm(
-    graph: Any, *, kind: str = "interpolate", name: str = "move_group", zeros: Any = None, **own: Any
+    graph: Any,
+    *,
+    kind: str = "interpolate",
+    name: str = "move_group",
+    zeros: Any = None,
+    cartesian_limits: Any = None,
+    **own: Any,
 ) -> None:
     """Start move_group and the nodes beside it; the arm is at `home`, its hand open."""
     limits = {**_LIMITS, **{finger: {"has_acceleration_limits": True, "max_acceleration": 5.0} for finger in _FINGERS}}
@@ -32,7 +38,7 @@ def start_arm(
         {
             "/robot_description": (FOLDER / "six_axis.urdf").read_text(),
             "/robot_description_semantic": (FOLDER / "six_axis.srdf").read_text(),
-            "/robot_description_planning": {"joint_limits": limits},
+            "/robot_description_planning": {"joint_limits": limits, "cartesian_limits": cartesian_limits or {}},
             f"/{name}": settings,
             "/joint_state_publisher": {
                 "rate": 100,

@@ -128,3 +128,24 @@ def test_planners_are_listed_with_their_settings(graph: Any) -> None:
     assert listed[0].name == "OMPL"
     assert "RRTConnect" in listed[0].planner_ids
     assert dict(zip(found.keys, found.values, strict=True)) == {"type": "geometric::RRTConnect", "range": "0.7"}
+
+
+def test_a_straight_line_keeps_the_cartesian_limits_of_the_parameters(graph: Any) -> None:
+    limits = {"max_trans_vel": 0.02, "max_trans_acc": 2.25, "max_trans_dec": -5.0, "max_rot_vel": 1.57}
+    start_arm(graph, planning_plugin="pilz_industrial_motion_planner::CommandPlanner", cartesian_limits=limits)
+    home = _positions(graph)
+    wanted = {name: home[name] + (0.1 if name == "joint_2" else 0.0) for name in ARM}
+
+    ask = {**request(joint_goal(wanted)), "planner_id": "LIN"}
+    answer = graph.call("/plan_kinematic_path", _PLAN, motion_plan_request=ask).motion_plan_response
+
+    assert answer.error_code.val == _SUCCESS
+    points = answer.trajectory.joint_trajectory.points
+    model = arm("six_axis")
+    states = np.zeros((len(points), len(model.variables)))
+    states[:, model.indices(ARM)] = [point.positions for point in points]
+    row = list(model.links).index(model.groups["arm"].tips[0])
+    places = Kinematics(model).link_poses(states)[:, row, :3]
+    times = np.array([point.time_from_start.sec + 1e-9 * point.time_from_start.nanosec for point in points])
+    speeds = np.linalg.norm(np.diff(places, axis=0), axis=1) / np.diff(times)
+    assert 0.019 < speeds.max() < 0.0201

@@ -1,17 +1,20 @@
 """Planning pipelines: planners with the adapters around them, by the names of parameters."""
 
 import asyncio
+import math
 import time
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, cast
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
 from trundle.base.diagnostics import Diagnostics, TrundleError, UsageError
 from trundle.planning.kinematics import InverseKinematics, Kinematics, KinematicsSettings, read_kinematics
 from trundle.planning.planners import (
+    CartesianLimits,
     ErrorCode,
     MotionPlan,
     MotionPlanRequest,
@@ -141,6 +144,7 @@ class Pipelines:
         self._ik_settings = read_kinematics(description.kinematics, description.model.groups, report)
         for finding in report.findings:
             node.log.warn(finding.what)
+        self._cartesian_limits = _cartesian_limits(node, description)
         self._solvers: dict[tuple[str, str | None], InverseKinematics] = {}
         self._pipelines: dict[str, Pipeline] = {}
         space = root.section("planning_pipelines")
@@ -271,6 +275,7 @@ class Pipelines:
             attempts=max(1, int(request.num_planning_attempts)),
             velocity_scaling=_scaling(request.max_velocity_scaling_factor),
             acceleration_scaling=_scaling(request.max_acceleration_scaling_factor),
+            cartesian_limits=self._cartesian_limits,
             seed=self._seed,
             **own,
         )
@@ -450,6 +455,21 @@ def _dense(positions: NDArray[np.float64]) -> NDArray[np.float64]:
         shares = np.arange(1, count + 1)[:, None] / count
         parts.append(before + shares * (after - before))
     return np.vstack(parts)
+
+
+def _cartesian_limits(node: Node, description: RobotDescription) -> CartesianLimits:
+    """Return the limits of pilz' lines and arcs: NAME_planning/cartesian_limits."""
+    name = f"{description.name}_planning/cartesian_limits"
+    try:
+        limits = msgspec.convert(description.planning.get("cartesian_limits", {}), CartesianLimits, strict=False)
+    except msgspec.ValidationError as error:
+        node.log.warn(f"parameter {name}: {error}; the defaults hold")
+        return CartesianLimits()
+    sizes = limits.max_trans_vel, limits.max_trans_acc, abs(limits.max_trans_dec), limits.max_rot_vel
+    if not all(0.0 < size < math.inf for size in sizes):
+        node.log.warn(f"parameter {name}: limits are finite and above 0, got {limits}; the defaults hold")
+        return CartesianLimits()
+    return limits
 
 
 def _scaling(value: float) -> float:

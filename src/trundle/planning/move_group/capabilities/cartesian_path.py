@@ -6,13 +6,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from trundle.base.diagnostics import TrundleError
-from trundle.planning.planners import ErrorCode
-from trundle.planning.planners.error_codes import RequestError
+from trundle.planning.planners import ErrorCode, JumpBounds, RequestError, cartesian_path
 
 from ..constraint_messages import constraints_of
 from ..controllers import JointPath
 from ..scene import pose_of
-from ..straight_lines import LineSettings, follow_lines
 
 if TYPE_CHECKING:
     from trundle.ros import Message
@@ -67,23 +65,31 @@ async def _follow(context: "Context", request: "Message") -> dict[str, Any]:
     header = str(request.header.frame_id).lstrip("/")
     base = frames.link(link) if header == link else frames.find(header)
     poses = [base @ pose_of(waypoint) for waypoint in request.waypoints]
-    settings = LineSettings(
-        step_m=float(request.max_step),
-        jump_threshold=float(request.jump_threshold),
-        prismatic_jump=float(request.prismatic_jump_threshold),
-        revolute_jump=float(request.revolute_jump_threshold),
-        avoid_collisions=bool(request.avoid_collisions),
-        path_constraints=constraints_of(request.path_constraints, model, frames),
+    jumps = JumpBounds(
+        relative=float(request.jump_threshold),
+        revolute=float(request.revolute_jump_threshold),
+        prismatic=float(request.prismatic_jump_threshold),
     )
+    path_constraints = constraints_of(request.path_constraints, model, frames)
     contents = monitor.contents
     scene = pipelines.scene(contents, start)
 
     def compute() -> tuple[JointPath, float, int]:
-        states, share = follow_lines(scene, group.name, link, start, poses, settings)
-        path = pipelines.timed(group.name, states)
+        found = cartesian_path(
+            scene,
+            group.name,
+            poses,
+            link=link,
+            start=start,
+            max_step=float(request.max_step),
+            jumps=jumps,
+            avoid_collisions=bool(request.avoid_collisions),
+            path_constraints=path_constraints,
+        )
+        path = pipelines.timed(group.name, found.waypoints)
         if request.max_cartesian_speed > 0.0:
             path = _limited(context, path, start, str(request.cartesian_speed_limited_link) or link, request)
-        return path, share, len(states)
+        return path, found.fraction, len(found.waypoints)
 
     context.node.log.info(
         f"Attempting to follow {len(poses)} waypoints for link '{link}' using a step of {request.max_step:f} m and "

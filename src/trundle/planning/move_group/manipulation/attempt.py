@@ -5,12 +5,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from msgspec import Struct
 
-from trundle.planning.planners import ErrorCode
+from trundle.planning.planners import ErrorCode, cartesian_path
 from trundle.spatial import Pose, Vector3
 
 from ..controllers import JointPath
 from ..scene import SceneContents
-from ..straight_lines import LineSettings, follow_lines
 
 if TYPE_CHECKING:
     from trundle.planning.planning_scene import PlanningScene
@@ -164,16 +163,15 @@ def _straight(
     x, y, z = (sign * translation.desired_m * part for part in translation.direction)
     here = context.monitor.kinematics.link_pose(start, attempt.hand_link)
     there = Pose((here.position[0] + x, here.position[1] + y, here.position[2] + z), here.quaternion)
-    settings = LineSettings(step_m=_STEP_M)
-    states, share = follow_lines(scene, attempt.group, attempt.hand_link, start, [there], settings)
-    reached_m = share * translation.desired_m
+    found = cartesian_path(scene, attempt.group, [there], link=attempt.hand_link, start=start, max_step=_STEP_M)
+    reached_m = found.fraction * translation.desired_m
     if reached_m + 1e-6 < translation.min_m:
         what = "approach" if backwards else "retreat"
         return Failure(
             code=ErrorCode.PLANNING_FAILED,
             sentence=f"the {what} is possible over {reached_m:.3f} m of at least {translation.min_m:.3f} m",
         )
-    return states
+    return found.waypoints
 
 
 def _stages(
