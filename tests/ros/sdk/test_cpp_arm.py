@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from tests.graphs import Graph
+from tests.graphs import Graph, until
 from tests.ros.sdk.conftest import WAIT_S, Running
 
 pytestmark = pytest.mark.slow
@@ -94,14 +94,16 @@ def test_a_fault_of_the_semantic_description_is_named(running: Running, graph: G
     assert fault in _started(running, "arm")
 
 
-def test_a_program_moves_an_arm_by_move_group(running: Running, tmp_path: Path) -> None:
-    words = ["launch", "arm_moveit_config", "demo.launch", "use_rviz:=false", "--headless", "--port", "0"]
+def test_a_program_moves_an_arm_by_move_group(running: Running, graph: Graph, tmp_path: Path) -> None:
+    node = graph.node("tester")
+    words = ["launch", "arm_moveit_config", "demo.launch", "use_rviz:=false", "--headless"]
     environment = {**running.environment, "ROS_HOME": str(tmp_path)}
     command = [sys.executable, "-m", "trundle", *words]
     with subprocess.Popen(
         command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
     ) as launch:
         try:
+            until(lambda: graph.loop.run(node.params.search("/robot_description_semantic")))
             output = _started(running, "mover")
         finally:
             launch.terminate()
@@ -110,7 +112,7 @@ def test_a_program_moves_an_arm_by_move_group(running: Running, tmp_path: Path) 
     lines = [line for line in output.splitlines() if not re.match(r"\S*\[", line)]
 
     assert lines == [
-        "arm foot hand_link",
+        "arm world hand_link",
         "named 1",
         "table 1 1",
         "plan 1 1",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 /** Angles [rad]. */
 namespace angles {
@@ -39,6 +40,21 @@ static inline bool shortest_angular_distance_with_limits(double from, double to,
   if (at_from > span || at_to > span) return false;
   shortest_angle = at_to - at_from;
   return true;
+}
+
+/** Shortest rotation to an angle, or to it a turn away, that stays within limits of any width, which are not angles on a
+ * circle but positions of a joint; false, with the shortest of all, if none does. */
+static inline bool shortest_angular_distance_with_large_limits(double from, double to, double left_limit,
+                                                               double right_limit, double& shortest_angle) {
+  shortest_angle = shortest_angular_distance(from, to);
+  double other = two_pi_complement(shortest_angle);
+  if (std::fabs(other) < std::fabs(shortest_angle)) std::swap(shortest_angle, other);
+  for (const double way : {shortest_angle, other}) {
+    if (from + way < left_limit || from + way > right_limit) continue;
+    shortest_angle = way;
+    return true;
+  }
+  return false;
 }
 
 }  // namespace angles

@@ -20,7 +20,8 @@ class ImuSensorHandle {
     double* linear_acceleration_covariance = nullptr;
   };
 
-  ImuSensorHandle(const Data& data = Data()) : data_(data) {}
+  ImuSensorHandle() {}
+  ImuSensorHandle(const Data& data) : data_(data) {}
 
   std::string getName() const { return data_.name; }
   std::string getFrameId() const { return data_.frame_id; }

@@ -4,11 +4,14 @@
 #include <ros/ros.h>
 
 #include <iostream>
+#include <sstream>
 
 typedef dynamic_reconfigure::Client<cpp_config::DriveConfig> Client;
 
 void print(const std::string& name, const cpp_config::DriveConfig& config) {
-  std::cout << name << " turns " << config.turns << " depth " << config.depth << " gain " << config.gain << std::endl;
+  std::ostringstream line;  // written at once, as callbacks run in another thread
+  line << name << " turns " << config.turns << " depth " << config.depth << " gain " << config.gain << '\n';
+  std::cout << line.str() << std::flush;
 }
 
 int main(int argc, char** argv) {

@@ -46,6 +46,9 @@ void checkAngles() {
   double way = 0.0;
   CHECK(angles::shortest_angular_distance_with_limits(2.0, -2.0, -2.5, 2.5, way) && near(way, -4.0));
   CHECK(!angles::shortest_angular_distance_with_limits(3.0, 0.0, -2.5, 2.5, way));
+  CHECK(angles::shortest_angular_distance_with_large_limits(0.0, 3.0, -6.0, 1.0, way) && near(way, 3.0 - 2 * M_PI));
+  CHECK(angles::shortest_angular_distance_with_large_limits(9.0, 3.0, -10.0, 10.0, way) && near(way, 3.0 + 2 * M_PI - 9.0));
+  CHECK(!angles::shortest_angular_distance_with_large_limits(0.0, 3.0, -1.0, 1.0, way));
 }
 
 void checkPid() {
