@@ -42,8 +42,8 @@ static inline bool shortest_angular_distance_with_limits(double from, double to,
   return true;
 }
 
-/** Shortest rotation to an angle, or to it a turn away, that stays within limits of any width, which are not angles on a
- * circle but positions of a joint; false, with the shortest of all, if none does. */
+/** Shortest rotation to an angle, or to it a turn away, that stays within limits of any width, which are not angles on
+ * a circle but positions of a joint; false, with the shortest of all, if none does. */
 static inline bool shortest_angular_distance_with_large_limits(double from, double to, double left_limit,
                                                                double right_limit, double& shortest_angle) {
   shortest_angle = shortest_angular_distance(from, to);
