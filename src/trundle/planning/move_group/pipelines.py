@@ -1,11 +1,11 @@
-"""Planning pipelines: planners with the adapters around them, by the names of parameters."""
+"""All planning pipelines of a node, and what they share: scenes, kinematics, times."""
 
 import asyncio
 import math
 import time
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 import numpy as np
@@ -19,20 +19,19 @@ from trundle.planning.planners import (
     MotionPlan,
     MotionPlanRequest,
     PlanningFailure,
-    StartStateFixes,
     WorkspaceBounds,
     joint_goal,
-    ompl_settings,
     plan,
 )
 from trundle.planning.planning_scene import AllowedCollisionMatrix, PlanningScene
-from trundle.planning.trajectories import Method, find_method, motion_limits, parameterize
+from trundle.planning.trajectories import Method, motion_limits, parameterize
 from trundle.robots.parameters import RosParameters
 from trundle.ros import Node
 from trundle.spatial import Pose
 
 from .constraint_messages import constraints_of
 from .controllers import JointPath
+from .pipeline import Pipeline
 from .plan_outcome import PlanOutcome
 from .planning_scene_monitor import PlanningSceneMonitor
 from .robot_description import RobotDescription
@@ -41,93 +40,10 @@ from .scene import FrameError, SceneChanges, SceneContents, SceneMirror
 if TYPE_CHECKING:
     from trundle.ros import Message
 
-_PILZ = "pilz_industrial_motion_planner"
-_PILZ_PLANNERS = ("PTP", "LIN", "CIRC")
 _DEFAULT_TIME_S = 5.0
 _MAX_TIME_S = 600.0
 _MAX_STEP = 0.05
 """Greatest step of a joint between points of a trajectory [rad] or [m]."""
-
-
-class Pipeline:
-    """One planning pipeline of the parameters."""
-
-    def __init__(self, node: Node, name: str, parameters: RosParameters, description: RobotDescription) -> None:
-        """Read the settings of a namespace."""
-        self.name = name
-        self.plugin = parameters.text("planning_plugin", "ompl_interface/OMPLPlanner")
-        self._parameters = parameters
-        self._description = description
-        self._tree: dict[str, Any] = parameters.tree()
-        self._changed: dict[tuple[str, str], dict[str, str]] = {}
-        adapters = parameters.text("request_adapters", "").split()
-        names = [adapter.rpartition("/")[2] for adapter in adapters]
-        timing = next((one for one in names if one.startswith("Add") and one.endswith("Parameterization")), "")
-        self.timing: Method
-        self.timing, note = find_method(timing)
-        if note:
-            node.log.warn(note)
-        self.fixes = StartStateFixes(
-            max_bounds_error=parameters.number("start_state_max_bounds_error", 0.05),
-            jiggle_fraction=parameters.number("jiggle_fraction", 0.02),
-            max_sampling_attempts=parameters.integer("max_sampling_attempts", 100),
-        )
-        node.log.info(f"Using planning interface '{self.description}'")
-        for one in names:
-            node.log.info(f"Using planning request adapter '{one}'")
-
-    @property
-    def description(self) -> str:
-        """What query_planner_interface calls it."""
-        if self.is_pilz:
-            return "Pilz Industrial Motion Planner"
-        return {"ompl_interface/OMPLPlanner": "OMPL"}.get(self.plugin, self.plugin.partition("/")[0].upper())
-
-    @property
-    def is_pilz(self) -> bool:
-        """True for the planner of PTP, LIN and CIRC."""
-        return _PILZ in self.plugin
-
-    @property
-    def planner_ids(self) -> list[str]:
-        """Names of planner configurations, as query_planner_interface lists them."""
-        if self.is_pilz:
-            return list(_PILZ_PLANNERS)
-        names = list(self._section("planner_configs"))
-        return [*names, *(f"{group}[{name}]" for group in self._description.model.groups for name in names)]
-
-    def _section(self, *names: str) -> dict[str, Any]:
-        """Return nested parameters; empty where there are none."""
-        section: dict[str, Any] = self._tree
-        for name in names:
-            nested = section.get(name)
-            section = cast("dict[str, Any]", nested) if isinstance(nested, dict) else {}
-        return section
-
-    def planner_settings(self, group: str, config: str) -> dict[str, object]:
-        """Return the parameters of a planner configuration, or of a group's default one."""
-        name = config or str(self._section(group).get("default_planner_config", ""))
-        return {**self._section("planner_configs", name), **self._changed.get((group, name), {})}
-
-    def set_planner_settings(self, group: str, config: str, values: dict[str, str], *, replace: bool) -> None:
-        """Change the parameters of a planner configuration."""
-        old = {} if replace else {key: str(value) for key, value in self.planner_settings(group, config).items()}
-        self._changed[group, config] = {**old, **values}
-
-    def choose(self, group: str, planner_id: str) -> tuple[str, Any]:
-        """Return the planner and its settings for a request."""
-        if self.is_pilz:
-            return planner_id or str(self._tree.get("default_planner_config") or "PTP"), None
-        config = dict(self._tree)
-        name = planner_id.removeprefix(f"{group}[").removesuffix("]")
-        changed = self._changed.get((group, name)) or self._changed.get(("", name))
-        if changed is not None:
-            config["planner_configs"] = {**self._section("planner_configs"), name: changed}
-        return ompl_settings(config, group, planner_id)
-
-    def capabilities(self) -> list[str]:
-        """Return the capabilities that the pipeline's parameters ask for."""
-        return self._parameters.text("capabilities", "").split()
 
 
 class Pipelines:
