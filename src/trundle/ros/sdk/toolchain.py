@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from trundle.base.diagnostics import UsageError
 
-from .zig import zig_tools
+from .zig import zig_definitions, zig_tools
 
 _COMPILERS = ("c++", "g++", "clang++")
 _HEADER, _EIGEN = "boost/shared_ptr.hpp", "Eigen/Core"
@@ -53,8 +53,9 @@ def find_toolchain(environment: Mapping[str, str]) -> Toolchain:
         if chosen:
             raise UsageError(f"CXX names {chosen!r}, which is not found; unset it, or name a C++ compiler")
         compiler = _zig(environment)
+    is_zig = bool(zig_definitions(compiler))
     missing = [name for name in ("cmake", "ninja") if _program(name, path) is None]
-    boost = _boost(environment)
+    boost = _boost(environment, prefers_python=is_zig)
     if boost is None:
         missing.append("cmeel-boost")
     if missing:
@@ -90,12 +91,15 @@ def _program(name: str, path: str) -> str | None:
     return shutil.which(name, path=path) or shutil.which(name, path=sysconfig.get_path("scripts"))
 
 
-def _boost(environment: Mapping[str, str]) -> Path | None:
-    """Return the prefix of Boost's headers: the machine's, else that of the Python package cmeel-boost."""
+def _boost(environment: Mapping[str, str], *, prefers_python: bool) -> Path | None:
+    """Return the prefix of Boost's headers: the machine's, else that of the Python package cmeel-boost.
+
+    Zig's compiler is too new for the Boost of many machines, whose turn is last then.
+    """
     named = environment.get("BOOST_ROOT")
+    machine, python = [Path(folder) for folder in _HEADER_FOLDERS], [_python_prefix() / "include"]
     folders = [Path(named, "include")] if named else []
-    folders += [Path(folder) for folder in _HEADER_FOLDERS]
-    folders.append(_python_prefix() / "include")
+    folders += [*python, *machine] if prefers_python else [*machine, *python]
     return next((folder.parent for folder in folders if (folder / _HEADER).is_file()), None)
 
 

@@ -10,7 +10,9 @@ from pathlib import Path
 from trundle.base.atomic_write import write_atomically
 from trundle.base.ownership import home_folder
 
-_TOOLS = {"c++": "c++", "cc": "cc", "ar": "ar", "ranlib": "ranlib"}
+_FOR_BOOST = "-D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION"
+"""What Boost before 1.81 uses of a standard library that no longer has it."""
+_TOOLS = {"c++": f"c++ {_FOR_BOOST}", "cc": "cc", "ar": "ar", "ranlib": "ranlib"}
 """Name of a program → Zig's subcommand."""
 
 
