@@ -19,12 +19,12 @@ def plugin_library(tag: PluginTag, environment: Mapping[str, str]) -> Path | Non
     It is the path as written; else the file name beside the model, in `build` there, in the folders of
     GAZEBO_PLUGIN_PATH and LD_LIBRARY_PATH, or in the devel space of the workspace around the model.
     """
-    return next((path for path in _candidates(tag, environment) if _is_ours(path)), None)
+    return next((path for path in _candidates(tag, environment) if has_mark(path, _MARK)), None)
 
 
 def foreign_library(tag: PluginTag, environment: Mapping[str, str]) -> Path | None:
     """Return a library of this name that was compiled for Gazebo itself, and cannot be loaded; None: there is none."""
-    return next((path for path in _candidates(tag, environment) if not _is_ours(path)), None)
+    return next((path for path in _candidates(tag, environment) if not has_mark(path, _MARK)), None)
 
 
 def _candidates(tag: PluginTag, environment: Mapping[str, str]) -> Iterator[Path]:
@@ -50,17 +50,18 @@ def _folders(beside: Path, environment: Mapping[str, str]) -> list[Path]:
     return [*folders, *(parent / "devel/lib" for parent in beside.parents)]
 
 
-def _is_ours(path: Path) -> bool:
+def has_mark(path: Path, mark: bytes) -> bool:
+    """Return whether a library contains a text that the kit's headers put into it; False for one over 256 MiB."""
     try:
         status = path.stat()
     except OSError:
         return False
-    return status.st_size <= _MAX_BYTES and _has_mark(path, status.st_mtime_ns)
+    return status.st_size <= _MAX_BYTES and _contains(path, mark, status.st_mtime_ns)
 
 
 @lru_cache(maxsize=256)
-def _has_mark(path: Path, _changed_ns: int) -> bool:
+def _contains(path: Path, mark: bytes, _changed_ns: int) -> bool:
     try:
-        return _MARK in path.read_bytes()
+        return mark in path.read_bytes()
     except OSError:
         return False

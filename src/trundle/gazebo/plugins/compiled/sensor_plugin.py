@@ -32,7 +32,7 @@ _Contact = tuple[str, str, Sequence[float]]
 def attach_compiled_plugin(
     library: Path, tag: PluginTag, sensor: InstrumentSensor | CameraSensor, node: Node, sim: Simulation
 ) -> None:
-    """Load a sensor's plugin from a library; it gets readings while anybody there wants them.
+    """Load a sensor's plugin from a library; the sensor is read while the plugin has connected to its updates.
 
     Raises:
         DescriptionError: it cannot be loaded, or its Load threw an exception.

@@ -3,7 +3,6 @@
 import os
 import sys
 from collections.abc import Iterator, Mapping
-from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -13,9 +12,10 @@ from trundle.base.xmlnode import parse_xml
 from trundle.robots.packages import Packages
 from trundle.robots.parameters import ParamError
 
+from ..compiled import has_mark
+
 _MARK = b"_ZN12class_loader4impl13registerClass"
 """Symbol of the kit's class_loader, which every library with plugins uses; the original's has another name."""
-_MAX_BYTES = 256 * 1024 * 1024
 _SUFFIX = ".dylib" if sys.platform == "darwin" else ".so"
 _BASES = {
     "controller_interface": "controller_interface::ControllerBase",
@@ -108,20 +108,4 @@ def _library(path: str, folder: Path, environment: Mapping[str, str]) -> Path | 
     folders = [Path(prefix, "lib") for prefix in prefixes if prefix]
     for parent in folder.resolve().parents:
         folders += [parent / "devel/lib", parent / "install/lib", parent / "lib"]
-    return next((file for entry in folders if _is_ours(file := entry / name)), None)
-
-
-def _is_ours(path: Path) -> bool:
-    try:
-        status = path.stat()
-    except OSError:
-        return False
-    return status.st_size <= _MAX_BYTES and _has_mark(path, status.st_mtime_ns)
-
-
-@lru_cache(maxsize=256)
-def _has_mark(path: Path, _changed_ns: int) -> bool:
-    try:
-        return _MARK in path.read_bytes()
-    except OSError:
-        return False
+    return next((file for entry in folders if has_mark(file := entry / name, _MARK)), None)
