@@ -33,7 +33,7 @@ class PluginHost : public StepAction {
            const std::string& elements);
   // Call a plugin's Reset; 0: forget the last step's commands, before all of them.
   void reset(int plugin);
-  // Whether anybody wants readings of a sensor's plugin, and its next reading, between two steps.
+  // Whether a plugin has connected to its sensor; the next reading of the sensor, between two steps.
   bool wants_reading(int plugin) const;
   void take_reading(int plugin, std::int64_t time_ns, const TrundleGazeboReading& reading);
   void close();

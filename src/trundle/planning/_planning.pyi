@@ -226,7 +226,7 @@ class GroupTask:
     """Group, limits, path constraints and resolution of a query."""
 
 class QueryResult:
-    """What a search found."""
+    """Result of solving the inverse kinematics of one pose."""
 
     @property
     def states(self) -> NDArray[float64]:

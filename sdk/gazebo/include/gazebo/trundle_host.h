@@ -103,7 +103,7 @@ struct TrundleGazeboKit {
   /* Before each step, and after the last one's; a negative time: there was none. */
   void (*before_step)(void* world, int64_t time_ns, int64_t real_ns);
   void (*after_step)(void* world, int64_t time_ns, int64_t real_ns);
-  /* Whether anybody wants readings of a plugin's sensor, and the next reading, after the step. */
+  /* Whether a plugin has connected to its sensor; the next reading of the sensor, after the step. */
   int (*wants_reading)(void* world, int plugin);
   void (*take_reading)(void* world, int plugin, int64_t time_ns, const struct TrundleGazeboReading* reading);
   /* After a reset: of a plugin, by its number; 0: of the world, before its plugins. */

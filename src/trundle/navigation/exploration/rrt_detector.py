@@ -27,7 +27,7 @@ _STEP_RATIO = 0.2
 """Step along a branch, per size of a cell, as in the original."""
 _MAX_STEPS = 100_000
 _MAX_VERTICES = 20_000
-"""A full tree begins anew; one of this size has a branch in each 0.1 m × 0.1 m of 200 m²."""
+"""Largest number of branches, after which the tree starts again: one in each 0.1 m × 0.1 m of 200 m²."""
 _CLICKS = 5
 _SHOWN_NS = NS_PER_S // 2
 _LINE_LIST, _POINTS = 5, 8
@@ -164,7 +164,7 @@ class GlobalRrtDetector(_RrtDetector):
 
 
 class LocalRrtDetector(_RrtDetector):
-    """A `global_rrt_detector` whose tree begins anew at the robot, `~robot_frame`, whenever it found a point."""
+    """`local_rrt_detector`: after each frontier point its tree starts again at the robot (`~robot_frame`)."""
 
     _color: ClassVar[dict[str, float]] = {"r": 1.0, "a": 1.0}
     _follows_robot = True

@@ -25,7 +25,7 @@ StateCheck = _planning.StateCheck | Callable[[NDArray[np.float64]], bool]
 
 
 class IkSolution(Struct, frozen=True, kw_only=True):
-    """What a search found."""
+    """Result of solving the inverse kinematics of one pose."""
 
     is_found: bool
     positions: NDArray[np.float64]
