@@ -10,6 +10,8 @@ from trundle.ros import Transform, TransformListener
 
 NOW: dict[str, Any] = {"stamp": "now"}
 _COVARIANCE = (0.01 * np.eye(6)).ravel().tolist()
+_VAGUE_TURNING = np.diag([0.01, 0.01, 0.01, 0.01, 0.01, 1.0]).ravel().tolist()
+"""So vague that an estimate published between the wheels' message and the IMU's is the IMU's, too."""
 
 
 def config(*used: int) -> list[bool]:
@@ -17,7 +19,7 @@ def config(*used: int) -> list[bool]:
 
 
 def speed(x: float, turning: float, stamp_ns: int) -> dict[str, Any]:
-    twist = {"twist": {"linear": {"x": x}, "angular": {"z": turning}}, "covariance": _COVARIANCE}
+    twist = {"twist": {"linear": {"x": x}, "angular": {"z": turning}}, "covariance": _VAGUE_TURNING}
     return {"header": {"stamp": stamp_ns, "frame_id": "odom"}, "child_frame_id": "base_link", "twist": twist}
 
 
