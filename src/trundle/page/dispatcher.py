@@ -12,9 +12,8 @@ from aiohttp import MultipartReader
 
 from trundle.base.diagnostics import TrundleError, UsageError
 from trundle.base.output_folder import find_target, save_files
-from trundle.ros import GraphLoop, WallClock, is_bag, open_bag
+from trundle.ros import GraphLoop, WallClock, open_bag
 
-from .bag.reference import BagReference
 from .bag.source import BagSource
 from .clients.assets import Assets
 from .clients.connection import Connection
@@ -36,6 +35,7 @@ from .clients.protocol import (
     UseTerminal,
     operation_decoder,
 )  # fmt: skip
+from .compared_recording import ComparedRecording
 from .graph.ros_graph import RosGraph
 from .lesson_answers import LessonAnswers
 from .mailbox import Mailbox
@@ -46,14 +46,11 @@ from .requests.lessons import CheckLessonFile, ListLessons, OpenLesson
 from .requests.request import (
     REQUEST_NAMES,
     ClientAction,
-    Compare,
     Definition,
     PlotSeries,
     RenderView,
     SaveRvizAs,
-    SetReferenceOffset,
     SocketAction,
-    StopComparing,
 )
 from .requests.world import RenderModel
 from .session import PageSession, RvizFile, Session
@@ -93,7 +90,6 @@ from .world.session_channel import SessionChannel
 from .world.streams import TERMINAL
 from .world.terminal_channel import TerminalChannel
 
-_REFERENCE = "reference"
 _NO_GRAPH = "this page has no ROS graph"
 _action_decoder = msgspec.json.Decoder(SocketAction)
 
@@ -148,38 +144,28 @@ class Page:
         self.hub.polled += [self._people, *streams]
         bag = None if start.bag is None else open_bag(start.bag.file)
         self._bag = None if bag is None or start.bag is None else BagSource(bag, start.bag, self.hub)
-        self._bag_start_s = None if bag is None else bag.start_ns / 1e9
         if self._bag is not None:
             self.hub.polled.append(self._bag)
-        self._reference = BagReference(self.hub, differences)
-        self.hub.polled.append(self._reference)
-        self._compared = start.reference
+        self._compared = ComparedRecording(
+            self.hub,
+            self._owner,
+            differences,
+            has_world=start.session.kind in ("simulation", "log"),
+            has_topics=self._has_graph or bag is not None,
+            bag_start_s=None if bag is None else bag.start_ns / 1e9,
+        )
+        self._reference = start.reference
+        """Bag that is compared first."""
         self._graph = None if start.graph is None else RosGraph(start.graph, loop, self.hub, self._owner)
 
     async def run(self) -> None:
         """Serve until cancelled."""
-        parts = [self.hub.run(), self._compare_first()]
+        parts = [self.hub.run()]
+        if self._reference is not None:
+            parts.append(self._compared.open_first(self._reference))
         if self._graph is not None:
             parts.append(self._graph.run())
         await asyncio.gather(*parts)
-
-    async def _compare_first(self) -> None:
-        """Compare with the bag that the owner named at the start."""
-        if self._compared is None:
-            return
-        self.hub.set_condition(_REFERENCE, f"{self._compared.title} is being read")
-        reason = await self._compare_bag(self._compared.file, self._compared.title)
-        self.hub.set_condition(
-            _REFERENCE, None if reason is None else f"{self._compared.title} is not compared: {reason}"
-        )
-
-    async def _compare_bag(self, file: Path, title: str) -> str | None:
-        """Compare the topics with a bag; return the reason if it cannot be compared."""
-        try:
-            await self._reference.open(file, title, start=self._bag_start_s)
-        except (TrundleError, OSError) as error:
-            return str(error)
-        return None
 
     async def stop(self) -> None:
         """Stop driven robots, and remove uploads."""
@@ -253,7 +239,7 @@ class Page:
 
     def world_files(self) -> Mapping[str, bytes]:
         """Return the files of the simulated world and of a bag that topics are compared with, by URL."""
-        return {**self._world.files, **self._reference.files} if self._reference.is_open else self._world.files
+        return {**self._world.files, **self._compared.files}
 
     async def render(self, view: RenderView) -> bytes:
         """Return a picture of the scene as PNG.
@@ -288,28 +274,7 @@ class Page:
 
     async def compare(self, parts: MultipartReader) -> str:
         """Receive a recording, compare the world or the topics with it, and return its title; raises UsageError."""
-        return await compare_upload(parts, self._compare_file)
-
-    async def _compare_file(self, action: Compare) -> str | None:
-        """Compare with a state log or a bag; return the reason if it cannot be compared."""
-        file, has_world = Path(os.fsdecode(action.file)), self._session.kind in ("simulation", "log")
-        try:
-            found_bag = await asyncio.to_thread(is_bag, file)
-        except TrundleError as error:
-            return str(error)
-        if found_bag and not (self._has_graph or self._bag is not None):
-            return f"{action.title} is a bag, and this page has no topics to compare with it"
-        if not found_bag and not has_world:
-            return f"{action.title}: topics can only be compared with a bag"
-        if found_bag:
-            reason = await self._compare_bag(file, action.title)
-            if reason is None and has_world:
-                await self._owner.compare(StopComparing())
-            return reason
-        reason = await self._owner.compare(action)
-        if reason is None:
-            self._reference.close()
-        return reason
+        return await compare_upload(parts, self._compared.open)
 
     # -- for clients
 
@@ -444,12 +409,7 @@ class Page:
 
     def _act(self, client: Connection, client_id: int | str, action: ClientAction) -> None:
         """Pass a request to the compared bag, to the one that is played, or to the owner."""
-        if self._reference.is_open and isinstance(action, SetReferenceOffset | StopComparing):
-            match action:
-                case SetReferenceOffset(offset):
-                    self._reference.set_offset(offset)
-                case StopComparing():
-                    self._reference.close()
+        if self._compared.handle(action):
             respond(client, client_id)
             return
         if self._bag is None:
