@@ -12,6 +12,10 @@ if not set -q ROS_DISTRO
     set -gx ROS_VERSION 1
     set -g _trundle_distro set
 end
+if not set -q CMAKE_POLICY_VERSION_MINIMUM
+    set -gx CMAKE_POLICY_VERSION_MINIMUM 3.5
+    set -g _trundle_policy set
+end
 
 function roscd
     if test "$argv[1]" = --help; or test (count $argv) -gt 1
@@ -45,6 +49,9 @@ function trundle_deactivate
     rm -rf $TRUNDLE_SHELL
     if set -q _trundle_distro
         set -e ROS_DISTRO ROS_VERSION _trundle_distro
+    end
+    if set -q _trundle_policy
+        set -e CMAKE_POLICY_VERSION_MINIMUM _trundle_policy
     end
     set -e TRUNDLE_SHELL TRUNDLE_LIBRARIES TRUNDLE_PYTHON gazebo_DIR roscpp_DIR
     functions -e roscd cp trundle_deactivate

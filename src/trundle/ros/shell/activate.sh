@@ -14,6 +14,11 @@ if [ -z "${ROS_DISTRO+x}" ]; then
   export ROS_DISTRO ROS_VERSION
   _trundle_distro=set
 fi
+if [ -z "${CMAKE_POLICY_VERSION_MINIMUM+x}" ]; then
+  CMAKE_POLICY_VERSION_MINIMUM=3.5 # CMake 4 refuses the 2.8 of that era's packages
+  export CMAKE_POLICY_VERSION_MINIMUM
+  _trundle_policy=set
+fi
 
 roscd() {
   if [ "${1-}" = "--help" ] || [ "$#" -gt 1 ]; then
@@ -76,8 +81,11 @@ trundle_deactivate() {
   if [ -n "${_trundle_distro-}" ]; then
     unset ROS_DISTRO ROS_VERSION
   fi
+  if [ -n "${_trundle_policy-}" ]; then
+    unset CMAKE_POLICY_VERSION_MINIMUM
+  fi
   unset TRUNDLE_SHELL TRUNDLE_LIBRARIES TRUNDLE_PYTHON gazebo_DIR roscpp_DIR _trundle_prompt _trundle_distro _trundle_target
-  unset _trundle_word _trundle_inside _trundle_package _trundle_found
+  unset _trundle_policy _trundle_word _trundle_inside _trundle_package _trundle_found
   unset -f roscd cp trundle_deactivate _trundle_without _trundle_shared
 }
 
