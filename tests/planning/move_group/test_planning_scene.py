@@ -83,3 +83,19 @@ def test_collisions_that_a_matrix_allows_are_none(graph: Any) -> None:
 
     assert {before.contacts[0].contact_body_1, before.contacts[0].contact_body_2} == {"base_link", "crate"}
     assert graph.call("/check_state_validity", kind, robot_state=state, group_name="").valid
+
+
+def test_the_offset_of_a_plane_goes_along_its_normal(graph: Any) -> None:
+    """As in MoveIt, whose FCL has n·x = d, against the comment of shape_msgs/Plane."""
+    start_arm(graph)
+    plane = {"id": "floor", "header": {"frame_id": "base_link"}, "plane_poses": [{"orientation": {"w": 1.0}}]}
+    kind = "moveit_msgs/GetStateValidity"
+
+    add(graph, {**plane, "planes": [{"coef": [0.0, 0.0, 2.0, -0.4]}]})
+    below = graph.call("/check_state_validity", kind, robot_state={"is_diff": True}, group_name="")
+    add(graph, {**plane, "planes": [{"coef": [0.0, 0.0, 2.0, 0.4]}]})
+    above = graph.call("/check_state_validity", kind, robot_state={"is_diff": True}, group_name="")
+
+    assert below.valid
+    assert not above.valid
+    assert "floor" in {above.contacts[0].contact_body_1, above.contacts[0].contact_body_2}

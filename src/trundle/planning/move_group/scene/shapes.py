@@ -80,7 +80,10 @@ def mesh_of(message: "Message") -> Mesh:
 
 
 def plane_of(message: "Message") -> tuple[Plane, Pose]:
-    """Read a shape_msgs/Plane: a plane through the origin of its own pose.
+    """Read a shape_msgs/Plane as a plane through the origin of its own pose.
+
+    Its points have ax + by + cz = d. The message's comment says ax + by + cz + d = 0, but MoveIt hands the numbers to
+    FCL's Plane, whose distance is n·x − d, and draws them so.
 
     Raises:
         ValueError: not finite, or no normal.
@@ -90,7 +93,7 @@ def plane_of(message: "Message") -> tuple[Plane, Pose]:
     if not math.isfinite(norm + d) or norm == 0.0:
         raise ValueError(f"a plane needs a normal and an offset, got {[a, b, c, d]}")
     normal = (a / norm, b / norm, c / norm)
-    return Plane(normal, (_SHOWN_M, _SHOWN_M)), Pose(multiply(normal, -d / norm))
+    return Plane(normal, (_SHOWN_M, _SHOWN_M)), Pose(multiply(normal, d / norm))
 
 
 def shape_fields(shape: ShapeGeometry) -> tuple[str, dict[str, Any]]:
