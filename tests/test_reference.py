@@ -119,6 +119,23 @@ def test_all_public_calls_have_an_example() -> None:
     assert [name for name, is_member in calls if example_of(name, is_member=is_member) is None] == []
 
 
+_HELD = (
+    "Simulation LoadedSimulation SavedSimulation StrideProfile ModelHandle LinkHandle JointHandle View Film "
+    "Recording Plot World Model Link Joint"
+)
+
+
+@pytest.mark.parametrize("name", _HELD.split())
+def test_completion_shows_what_the_reference_documents(name: str) -> None:
+    """What other rooms call of an object is left out of `dir`."""
+    kind = getattr(trundle, name)
+    documented = {member for base in kind.__mro__ for member in _MEMBERS.get(base.__name__, "").split()}
+
+    shown = {member for member in kind.__dir__(kind) if not member.startswith("_")}
+
+    assert shown == documented
+
+
 def _package_functions() -> Iterator[tuple[str, Any]]:
     """Yield the functions, methods and properties of the packages' public names."""
     for package, names in _API["PACKAGES"].items():

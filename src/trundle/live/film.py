@@ -9,6 +9,7 @@ from typing import Self
 from PIL import Image
 
 from trundle.base.diagnostics import UsageError
+from trundle.base.documented import documented
 from trundle.base.video_file import FRAMES_PER_S, VIDEO_SUFFIXES, write_video
 from trundle.sim.simulation import Simulation, Snapshot
 from trundle.spatial import NS_PER_S
@@ -17,6 +18,7 @@ _QUEUED = 8
 """Maximum number of frames that wait for the encoder, which bounds the memory."""
 
 
+@documented("file frame_count close")
 class Film:
     """Video of 25 frames per second of simulation time; `close` completes the file."""
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Self
 
 from trundle.base.arguments import number_of
 from trundle.base.diagnostics import Diagnostics, UsageError
+from trundle.base.documented import documented
 from trundle.robots.packages import Packages
 from trundle.sim.realtime_pacer import STRIDE_FLAT_OUT_NS
 from trundle.sim.simulation import Simulation
@@ -38,6 +39,9 @@ _BAG_PERIOD_NS = 10_000_000
 """Resolution of the stamps in bags [ns]."""
 
 
+@documented(
+    "camera camera_names sensor sensor_names profile view picture film record plot ros_master_uri make_node close"
+)
 class LoadedSimulation(Simulation):
     """A running world, with its sensors, plugins and ROS graph.
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from trundle.base.atomic_write import write_atomically
 from trundle.base.diagnostics import UsageError, no_such
+from trundle.base.documented import documented
 from trundle.base.drawing import Curve, curves_svg, curves_text
 from trundle.page.simulated_world.series import SampledState, SensorValue, Series, SeriesFinder
 from trundle.sim.simulation import Simulation, Snapshot
@@ -24,6 +25,7 @@ _COLUMNS, _ROWS = 100, 20
 """Size of the curves as text [characters]."""
 
 
+@documented("names units times_s save close")
 class Plot:
     """Values of a simulation over time, sampled while it runs; a notebook draws it.
 

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, Self
 
 from trundle.base.diagnostics import UsageError
+from trundle.base.documented import documented
 from trundle.sim.simulation import Simulation, Snapshot
 
 if TYPE_CHECKING:  # a simulation without ROS does not import its bags
@@ -20,6 +21,7 @@ class _Writer(Protocol):
         """Complete the file."""
 
 
+@documented("file close")
 class Recording:
     """Recording of a simulation until `close`."""
 

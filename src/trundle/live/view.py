@@ -6,6 +6,7 @@ import time
 from typing import TYPE_CHECKING, Self
 
 from trundle.base.arguments import number_of
+from trundle.base.documented import documented
 from trundle.base.http.page_address import AllowedNames, PageAddress
 from trundle.base.waiting import print_line
 from trundle.page import GraphAddress
@@ -30,6 +31,7 @@ _PAUSED_S = 0.02
 _HEIGHT_PX = 640
 
 
+@documented("url is_open is_watched is_paused speed real_time_factor sync close")
 class View:
     """Page in the browser, or in a notebook, that shows and edits a simulation while a program steps it.
 

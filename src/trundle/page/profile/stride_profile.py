@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from threading import get_ident
 from typing import TYPE_CHECKING, Self
 
+from trundle.base.documented import documented
 from trundle.sim.simulation import Simulation, StridePart
 from trundle.spatial import NS_PER_S
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:  # lazy: only runs with a graph load it
 _PHYSICS = StridePart.PHYSICS
 
 
+@documented("read")
 class StrideProfile:
     """Profiler of one simulation, on its thread; as a context manager, it measures inside the `with` statement."""
 

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from trundle.base.arguments import number_of, pose_of, twist_of, vector_of, wrench_of
 from trundle.base.diagnostics import UsageError, no_such
+from trundle.base.documented import documented
 from trundle.robots.model import Link, Model, World
 from trundle.spatial import ZERO, Pose, Twist, Wrench, cross, subtract
 
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from .runtime import Runtime
 
 
+@documented("name index is_valid pose twist set_pose set_twist apply_wrench applied_wrench add_wrench")
 class LinkHandle(Handle):
     """Handle of a link."""
 
@@ -132,6 +134,10 @@ class LinkHandle(Handle):
 _Named = TypeVar("_Named", LinkHandle, JointHandle)
 
 
+@documented(
+    "name model links joints base pose twist set_pose set_twist reset link joint apply_wrench joint_names "
+    "joint_positions joint_velocities jacobian mass_matrix bias_forces inverse_dynamics"
+)
 class ModelHandle:
     """Handle of a model."""
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from trundle.base.arguments import count_of, number_of
 from trundle.base.diagnostics import UsageError
+from trundle.base.documented import documented
 from trundle.robots.model import Joint
 from trundle.spatial import Pose, Wrench, cross
 
@@ -20,6 +21,10 @@ TimedCommand: TypeAlias = "tuple[MotorCommand, float | None]"
 """Command of an axis, and its remaining duration [s]; None: until the next one."""
 
 
+@documented(
+    "name index is_valid position velocity effort positions velocities efforts reaction is_driven set_position "
+    "set_velocity command_position command_velocity command_effort"
+)
 class JointHandle(Handle):
     """Handle of a joint; axes are counted from 0 in file order. A ball joint has three: their positions are a rotation
     vector, and their only commands are efforts.

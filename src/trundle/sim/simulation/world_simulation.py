@@ -13,6 +13,7 @@ from msgspec.structs import replace
 
 from trundle.base.arguments import count_of, number_of
 from trundle.base.diagnostics import Diagnostics, UsageError, no_such
+from trundle.base.documented import documented
 from trundle.robots.model import Joint, Model, World
 from trundle.sim.physics import CompiledWorld, ContactRecorder, Contacts, Engine, StepHooks, compile_world
 from trundle.spatial import NS_PER_S
@@ -50,6 +51,10 @@ _MAX_STRIDE = 1000
 Command: TypeAlias = Callable[["Simulation"], None]
 
 
+@documented(
+    "seed report models time_ns time_s step_ns run step reset save restore snapshot contacts spawn delete rename "
+    "add_hook remove_hook on_reset on_change post"
+)
 class Simulation:
     """World in motion."""
 

@@ -5,6 +5,7 @@ from typing import Self
 from msgspec.structs import replace
 
 from trundle.base.diagnostics import UsageError, no_such
+from trundle.base.documented import documented
 from trundle.robots import model
 from trundle.robots.model import ForceTorque, JointAxis, JointType, Sensor
 from trundle.spatial import Pose, Quaternion, normalized, rotate
@@ -17,6 +18,7 @@ _AXES = {JointType.FIXED: 0, JointType.BALL: 0, JointType.UNIVERSAL: 2, JointTyp
 _BUILT = [kind for kind in JointType if kind not in (JointType.PLANAR, JointType.GEARBOX)]
 
 
+@documented("add_force_torque_sensor")
 class Joint:
     """Joint between two links, or a link and the world; created by `Model.add_joint`."""
 

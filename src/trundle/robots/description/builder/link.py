@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Self
 
 from trundle.base.arguments import pose_of, vector_of
 from trundle.base.diagnostics import UsageError
+from trundle.base.documented import documented
 from trundle.robots import model
 from trundle.robots.model import Collision, Inertial, Sensor, Visual
 from trundle.spatial import Pose
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 _ORIGIN = Pose()
 
 
+@documented("add_box add_sphere add_cylinder add_capsule add_mesh add_sensor set_inertial")
 class Link(ShapeAdder["Link"]):
     """Rigid body with the mass properties of its shapes, or of `set_inertial`.
 

@@ -8,6 +8,7 @@ from msgspec.structs import replace
 
 from trundle.base.arguments import pose_of, vector_of
 from trundle.base.diagnostics import UsageError, no_such
+from trundle.base.documented import documented
 from trundle.base.xmlnode import parse_xml
 from trundle.robots import model
 from trundle.robots.model import JointAxis, PluginTag
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 _ORIGIN = Pose()
 
 
+@documented("add_link add_joint add_plugin add_box add_sphere add_cylinder add_capsule add_mesh to_sdf save")
 class Model(ShapeAdder[Link]):
     """Links joined by joints; a shape added to the model becomes a link at the shape's pose."""
 

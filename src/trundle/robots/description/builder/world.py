@@ -7,6 +7,7 @@ from msgspec.structs import replace
 
 from trundle.base.arguments import pose_of, vector_of
 from trundle.base.diagnostics import UsageError
+from trundle.base.documented import documented
 from trundle.robots import model
 from trundle.robots.model import Collision, Light, LightType, PhysicsSettings, Plane, Rgba, Visual
 from trundle.spatial import Pose, Vector3, normalized
@@ -25,6 +26,7 @@ _OVERHEAD = Pose((0.0, 0.0, 10.0))
 _UP: Vector3 = (0.0, 0.0, 1.0)
 
 
+@documented("add_model add_ground_plane add_light add_box add_sphere add_cylinder add_capsule add_mesh to_sdf save")
 class World(ShapeAdder[Model]):
     """World, initially empty and without lights, like SDF's.
 
