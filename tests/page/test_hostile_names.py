@@ -7,6 +7,7 @@ import time
 import xmlrpc.client
 from collections.abc import Iterator
 from contextlib import suppress
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 from xml.sax.saxutils import quoteattr
@@ -57,6 +58,7 @@ PANELS = {
     "Steering": "Topic",
     "Joystick": "",
     "Terminal": "",
+    "MotionPlanning": "No arm is planned here",
 }
 """Panels of the dock, and a text that each shows."""
 SESSION_PANELS = {
@@ -68,7 +70,7 @@ SESSION_PANELS = {
     "Terminal": EVIL["markup"],
 }
 """Panels that a page's session fills, and a text that each shows."""
-PANEL_MS = 20_000
+PANEL_MS = 60_000
 """Limit of each step in a panel."""
 _ROWS = ".dockhost :is(tbody tr, .logrow, [role=treeitem], [role=tab], .offer, svg .box, summary)"
 
@@ -265,10 +267,8 @@ class Victim(PanelUser):
                 row.hover(timeout=500)
                 row.click(timeout=500)
 
-    def unfold(self, panel: str) -> None:
-        """Show what a panel offers, and what it folds."""
-        if panel == "Plots":
-            self.button("Add curve").click()
+    def unfold(self) -> None:
+        """Show what the front panel folds."""
         for fold in self.page.locator(".dockhost .fold[aria-expanded=false]").all():
             fold.click()
 
@@ -324,9 +324,11 @@ def _visit(user: Victim, attacker: Attacker, panel: str, text: str) -> None:
     """Open a panel, wait until it shows the attacker's text, and use its entries."""
     user.page.set_default_timeout(PANEL_MS)
     user.open(panel)
+    if panel == "Plots":
+        user.button("Add curve").click()
     end = time.monotonic() + PANEL_MS / 1000
-    user.unfold(panel)
     while text not in user.page.locator(".dockhost").inner_text().replace("\n", ""):  # long names are in two parts
+        user.unfold()
         assert time.monotonic() < end, f"{panel} does not show {text!r}: {user.page.inner_text('.dockhost')[:2000]}"
         attacker.speak()
         user.page.wait_for_timeout(200)
@@ -357,6 +359,73 @@ def test_hostile_texts_of_a_session_run_nothing_in_a_panel(
 ) -> None:
     user = Victim(chromium, session_url)
     _visit(user, attacker, panel, SESSION_PANELS[panel])
+    user.close()
+
+
+def _arm() -> tuple[str, str]:
+    """Return URDF and SRDF of an arm in which everything has a hostile name."""
+    names = [quoteattr(name) for name in EVIL.values()]
+    links = "".join(f"<link name={name}/>" for name in names)
+    joints = "".join(
+        f"<joint name={child} type='revolute'><parent link={parent}/><child link={child}/><axis xyz='0 0 1'/>"
+        f"<limit lower='-1' upper='1' effort='1' velocity='1'/></joint>"
+        for parent, child in pairwise(names)
+    )
+    groups = "".join(
+        f"<group name={name}>{''.join(f'<joint name={joint}/>' for joint in names[1:])}</group>"
+        f"<group_state name={name} group={names[0]}><joint name={names[1]} value='0.5'/></group_state>"
+        for name in names
+    )
+    return f"<robot name={names[0]}>{links}{joints}</robot>", f"<robot name={names[0]}>{groups}</robot>"
+
+
+@pytest.fixture(scope="module")
+def arm_url() -> Iterator[str]:
+    """Page of a graph with a move_group whose robot, objects and planners have hostile names."""
+    with running_graph() as graph:
+        with xmlrpc.client.ServerProxy(graph.core.uri) as master:
+            for suffix, text in zip(("", "_semantic"), _arm(), strict=True):
+                master.setParam("/evil", f"/robot_description{suffix}", text)
+        node = graph.node("evil_arm")
+        node.advertise("/move_group/result", "moveit_msgs/MoveGroupActionResult")
+        scene = node.advertise("/move_group/monitored_planning_scene", "moveit_msgs/PlanningScene", latch=True)
+        pose, ball = {"orientation": {"w": 1.0}}, {"type": 2, "dimensions": [0.1]}
+        objects = [
+            {"id": name, "header": {"frame_id": EVIL["markup"]}, "primitives": [ball], "primitive_poses": [pose]}
+            for name in TEXTS.values()
+        ]
+        held = [{"link_name": one["id"], "object": {**one, "id": f"held {one['id']}"}} for one in objects]
+        state = {"attached_collision_objects": held}
+        planners = [{"name": name, "pipeline_id": name, "planner_ids": list(TEXTS.values())} for name in TEXTS.values()]
+        node.advertise_service(
+            "/query_planner_interface",
+            "moveit_msgs/QueryPlannerInterfaces",
+            lambda _: {"planner_interfaces": planners},
+        )
+        scene.publish({"name": EVIL["markup"], "world": {"collision_objects": objects}, "robot_state": state})
+        graph.ready(node)
+        session = Session(title="arm", kind="graph")
+        address = GraphAddress(master_uri=graph.core.uri)
+        with PageServer.start(session, at=PageAddress(port=0), graph=address) as server:
+            yield server.url
+
+
+def test_hostile_names_of_an_arm_run_nothing(chromium: Any, arm_url: str) -> None:
+    user = Victim(chromium, arm_url)
+    user.page.set_default_timeout(PANEL_MS)
+    user.button("Add MotionPlanning").click()
+    panel = user.page.locator(".motionplanning")
+    for section, text in (
+        ("Planning", "script"),
+        ("Joints", "script"),
+        ("Scene Objects", "markup"),
+        ("Context", "link"),
+    ):
+        user.open("MotionPlanning")  # looking around leads to other panels
+        panel.get_by_role("tab", name=section, exact=True).click()
+        user.until(lambda expected=EVIL[text]: expected in panel.inner_text().replace("\n", ""), what=section)
+        user.look_around()
+        user.check(section)
     user.close()
 
 
