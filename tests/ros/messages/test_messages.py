@@ -246,6 +246,18 @@ def test_types_are_read_from_a_package_folder(tmp_path: Path) -> None:
     assert messages.definition("my_msgs/Part").startswith("float32 SIZE=1.50  # a comment\n")
 
 
+def test_a_folder_adds_types_to_a_shipped_package(tmp_path: Path) -> None:
+    """Trundle has one message of hector_uav_msgs; a workspace with the package has them all."""
+    (tmp_path / "msg").mkdir()
+    (tmp_path / "msg/Fuel.msg").write_text("float32 level\n", encoding="utf-8")
+    (tmp_path / "msg/Altimeter.msg").write_text("string other\n", encoding="utf-8")
+    messages = Messages()
+    messages.add_package("hector_uav_msgs", tmp_path)
+
+    assert messages.fields("hector_uav_msgs/Fuel") == {"level": "float32"}
+    assert "qnh" in messages.fields("hector_uav_msgs/Altimeter")
+
+
 def test_a_type_is_added_from_the_definition_a_publisher_sends(messages: Messages) -> None:
     line = "=" * 80
     fresh = Messages()

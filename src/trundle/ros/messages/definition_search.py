@@ -46,8 +46,8 @@ class Definitions:
         """
         self.messages: dict[str, str] = {}
         self.services: dict[str, str] = {}
-        self.folders = folders
-        """Package → folder, for packages not read yet."""
+        self._folders = {package: [folder] for package, folder in folders.items()}
+        """Package → folders, for packages not read yet."""
         self.origins: dict[str, Origin] = {}
         """Origins of definitions that were read from files."""
         self.unreadable: dict[str, str] = {}
@@ -71,10 +71,13 @@ class Definitions:
             self._on_path = Packages(os.environ, start=Path.cwd()).ros_packages()
         return self._on_path
 
+    def add_package(self, package: str, folder: Path) -> None:
+        """Add a package's folder, which is read on first use; earlier definitions are kept."""
+        self._folders.setdefault(package, []).append(folder)
+
     def load_package(self, package: str) -> None:
         """Read a shipped or added package, once."""
-        folder = self.folders.pop(package, None)
-        if folder is not None:
+        for folder in self._folders.pop(package, []):
             self._read(package, folder)
 
     def load_from_path(self, package: str) -> None:
@@ -120,7 +123,7 @@ class Definitions:
 
     def load_all(self) -> None:
         """Read every package."""
-        for package in list(self.folders):
+        for package in list(self._folders):
             self.load_package(package)
         for package in self.on_path:
             self.load_from_path(package)

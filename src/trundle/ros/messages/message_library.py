@@ -103,7 +103,7 @@ class Messages:
 
     def add_package(self, name: str, folder: Path) -> None:
         """Add the types of a package; `msg/`, `srv/` and `action/` are read on first use."""
-        self._definitions.folders.setdefault(name, folder)
+        self._definitions.add_package(name, folder)
 
     def add_definition(self, type_name: str, definition: str) -> None:
         """Add a type and its dependencies from the full definition in a connection header."""
