@@ -99,6 +99,19 @@ def test_a_robot_is_localized_as_it_drives_and_odom_is_placed_in_the_map(graph, 
     assert map_from_odom.pose.rpy[2] == pytest.approx(DRIFT[2], abs=math.radians(1.5))
 
 
+def test_a_late_listener_sees_the_particles_where_they_are_now(graph, robot: Robot) -> None:
+    """Though the robot rests, and particles that nobody sees are not published."""
+    poses = graph.listen("/amcl_pose", POSE)
+    graph.until(lambda: graph.linked("/amcl_pose"))
+    for step in range(9):
+        robot.measure_until((1.0 + 0.25 * step, 1.0, 0.0), lambda number=step: len(poses) > number)
+
+    clouds = graph.listen("/particlecloud", "geometry_msgs/PoseArray")
+    graph.until(lambda: clouds)
+
+    assert sum(pose.position.x for pose in clouds[0].poses) / len(clouds[0].poses) == pytest.approx(3.0, abs=0.1)
+
+
 def test_a_resting_robot_updates_only_on_request(graph, robot: Robot) -> None:
     poses = graph.listen("/amcl_pose", POSE)
     buffer = TransformListener(graph.client).buffer

@@ -59,6 +59,19 @@ def test_a_plan_keeps_limits_and_is_free_of_the_object_in_its_way(graph: Any) ->
     assert np.all(np.abs(velocities) <= limits * 1.001)
 
 
+def test_a_display_that_comes_later_shows_the_last_plan(graph: Any) -> None:
+    """As in MoveIt, which latches display_planned_path."""
+    start_arm(graph)
+    wanted = request(joint_goal(_AWAY))
+    answer = graph.call("/plan_kinematic_path", _PLAN, motion_plan_request=wanted).motion_plan_response
+
+    shown = graph.listen("/move_group/display_planned_path", "moveit_msgs/DisplayTrajectory")
+    graph.until(lambda: shown)
+
+    points = [[tuple(point.positions) for point in one.joint_trajectory.points] for one in shown[0].trajectory]
+    assert points == [[tuple(point.positions) for point in answer.trajectory.joint_trajectory.points]]
+
+
 def test_requests_that_cannot_be_planned_have_their_codes(graph: Any) -> None:
     start_arm(graph)
     add(graph, box("wall", 0.35, 0.35, 0.5, (0.3, 0.3, 1.2)))

@@ -80,7 +80,13 @@ class Amcl:
         self._warnings = LogThrottle(node, 5.0)
         kind = "geometry_msgs/PoseWithCovarianceStamped"
         self._poses = node.advertise("amcl_pose", kind, latch=True, queue_size=2)
-        self._clouds = node.advertise("particlecloud", "geometry_msgs/PoseArray", latch=True, queue_size=2)
+        self._clouds = node.advertise(
+            "particlecloud",
+            "geometry_msgs/PoseArray",
+            latch=True,
+            queue_size=2,
+            on_connect=lambda _: self._show_cloud(),
+        )
         self._broadcaster = TransformBroadcaster(node)
         self._scans = TransformFilter(node, self._settings.odom_frame_id, self._on_scan, queue_size=_QUEUE)
         node.advertise_service("global_localization", "std_srvs/Empty", self._spread_over_map)
@@ -288,6 +294,11 @@ class Amcl:
         header = {"stamp": stamp_ns, "frame_id": self._settings.global_frame_id}
         self._poses.publish({"header": header, "pose": {"pose": pose_fields(map_from_base), "covariance": full}})
         self._spread_warning.publish(self._covariance)
+
+    def _show_cloud(self) -> None:
+        """Show a new subscriber where the particles are now: the latched cloud is that of the last subscriber."""
+        if self._filter is not None and self._odom_from_base is not None:
+            self._publish_cloud(self._filter)
 
     def _publish_cloud(self, particles: _localization.ParticleFilter) -> None:
         if self._clouds.has_subscribers:

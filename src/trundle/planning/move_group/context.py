@@ -41,8 +41,6 @@ class Context(Struct, frozen=True, eq=False, kw_only=True):
 
     def show(self, path: JointPath, start: np.ndarray, contents: SceneContents) -> None:
         """Publish a plan for displays."""
-        if not self.display.has_subscribers:
-            return
         self.display.publish(
             {
                 "model_id": self.monitor.model.name,
