@@ -91,6 +91,7 @@ def test_the_pose_is_moved_by_named_fields_instead_of_the_handles_in_the_scene(u
     user.side("Inspector")
     user.pick("rp2w")
     pose = user.page.get_by_role("group", name="Pose in world", exact=True)
+    pose.get_by_role("textbox").first.wait_for()
     names = ("x [m]", "roll [°]", "y [m]", "pitch [°]", "z [m]", "yaw [°]")
     assert [one.get_attribute("aria-label") for one in pose.get_by_role("textbox").all()] == list(names)
     field = pose.get_by_role("textbox", name="x [m]", exact=True)

@@ -64,6 +64,12 @@ class ArmUser(PanelUser):
         middle = len(rows) // 2
         return float(columns[middle]), float(rows[middle])
 
+    def still_arrow(self) -> tuple[float, float]:
+        """Return `arrow` once the view has come to rest: it moves while a panel opens."""
+        self.until(self.has_handles, what="for the handles at the tip")
+        self.until_still(self.arrow)
+        return self.arrow()
+
     def has_handles(self) -> bool:
         red, green, blue = self._view().transpose(2, 0, 1)
         return int(((green > 90) & (red < 60) & (blue < 60)).sum()) > 200
@@ -125,8 +131,7 @@ def test_a_dragged_tip_is_reached_by_the_arm(user: ArmUser) -> None:
     before = user.joints("Goal State")
     assert before[2] == pytest.approx(1.8, abs=1e-3)
     user.section("Planning")
-    user.until(user.has_handles, what="for the handles at the tip")
-    x, y = user.arrow()
+    x, y = user.still_arrow()
     user.page.mouse.move(x, y)
     user.page.mouse.down()
     for step in range(1, 11):
@@ -189,10 +194,9 @@ def test_the_arm_is_dragged_with_a_finger(chromium: Any, address: str) -> None:
     user.page.on("pageerror", lambda error: user.faults.append(str(error)))
     user.page.goto(address)
     user.page.get_by_role("navigation").get_by_role("button", name="Arm", exact=True).click()
-    user.until(user.has_handles, what="for the handles at the tip")
+    x, y = user.still_arrow()
     drag = user.page.get_by_role("button", name="Drag the arm")
     assert drag.get_attribute("aria-pressed") == "true"
-    x, y = user.arrow()
     touch = context.new_cdp_session(user.page)
     for kind, step in (("touchStart", 0), *(("touchMove", step) for step in range(1, 11)), ("touchEnd", 10)):
         points = [] if kind == "touchEnd" else [{"x": x + 4 * step, "y": y}]
