@@ -11,7 +11,7 @@ from trundle.gazebo.plugins import BUILTIN, SENSOR_PLUGINS, plugin_documentation
 from trundle.gazebo.plugins.ros_control.catalog import CONTROLLERS
 
 from .declarations import Declarations, Parameter
-from .markdown import code, html, table
+from .markdown import cell, code, html, table
 
 _PLUGINS = """# Plugins
 
@@ -65,6 +65,10 @@ def _sections(targets: Mapping[str, str]) -> Iterable[str]:
         names.setdefault(target, []).append(name)
     for target, group in names.items():
         implementation = load(target)
+        yield f"### `{group[0]}`\n"
+        if len(group) > 1:
+            yield f"Also {', '.join(f'`{name}`' for name in group[1:])}.\n"
+        yield f"{cell(_summary(implementation))}\n"
         declared = Declarations(implementation)
         documentation = plugin_documentation(group[0])
         for documented in documentation.parameters if documentation is not None else ():
