@@ -40,6 +40,7 @@ Worker.prototype.postMessage = function (...words) {
 };"""
 """Notes the times at which the page renews its lease [ms]."""
 LEASE_S = 1.0
+_NAP_S = 0.02
 
 
 @pytest.fixture(scope="module")
@@ -127,6 +128,15 @@ def _hold(user: PanelUser, control: str) -> Callable[[], object]:
     return lambda: user.page.keyboard.up("w")
 
 
+def _longest_stall(duration_s: float) -> float:
+    """Sleep in short naps; return by how much the longest was late, as others had the processor [s]."""
+    end, late_s = time.monotonic() + duration_s, 0.0
+    while (before := time.monotonic()) < end:
+        time.sleep(_NAP_S)
+        late_s = max(late_s, time.monotonic() - before - _NAP_S)
+    return late_s
+
+
 @pytest.mark.parametrize(
     ("control", "held_s"), [("key", 3), *(pytest.param(c, 20, marks=pytest.mark.slow) for c in ("key", "disc", "pad"))]
 )
@@ -140,7 +150,7 @@ def test_a_busy_page_drives_without_a_stop(
     graph.until(lambda: robot.velocities and robot.velocities[-1] != STOPPED)
     robot.received.clear()  # a press on the disc is a velocity of zero, before it is dragged
     graph.until(lambda: robot.received)
-    time.sleep(held_s)  # the page's own clock is as busy as the page
+    stall_s = _longest_stall(held_s)  # the page's own clock is as busy as the page
     held, stamps_s = robot.velocities, [stamp_s for stamp_s, *_ in robot.received]
     renewals_s = [stamp / 1000 for stamp in user.page.evaluate("clearInterval(window.busy), window.renewals")]
     released_s = time.monotonic()
@@ -148,9 +158,12 @@ def test_a_busy_page_drives_without_a_stop(
     graph.until(lambda: robot.velocities[-1] == STOPPED)
     pause_s, silence_s = (max(b - a for a, b in pairwise(times)) for times in (renewals_s, stamps_s))
     print(f"{len(held) / held_s:.1f} Hz while held; zero {robot.received[-1][0] - released_s:.3f} s after the release")
-    print(f"the page was silent for up to {pause_s:.2f} s, the server for up to {silence_s:.2f} s")
+    print(
+        f"the page was silent for up to {pause_s:.2f} s, the server for up to {silence_s:.2f} s, we for {stall_s:.2f} s"
+    )
 
-    is_starved = max(pause_s, silence_s) >= 0.9 * LEASE_S  # then a stop is right: others have the processor
+    # A renewal is late by the page's pause and by what its worker and the server wait for the processor.
+    is_starved = max(pause_s + stall_s, silence_s) >= 0.9 * LEASE_S  # then a stop is right: others have the processor
     assert is_starved or STOPPED not in held
     assert len(held) > held_s  # far above what a stop and a new start would need
     assert is_starved or robot.velocities.count(STOPPED) == 1
