@@ -202,7 +202,8 @@ def test_view_only_users_see_output_and_cannot_type(graph: Graph, chromium: Any,
     listener.subscribe("/robot/cmd_vel", "geometry_msgs/Twist", lambda twist: received.append(twist.linear.x))
     viewer = Typist(chromium, link)
     viewer.choose("/drive")
-    viewer.reads("i: forward")
+    output = ("i: forward", "pressed")  # the first is out of sight after a few keys
+    viewer.until(lambda: any(text in viewer.shown for text in output), what="for the program's output")
     viewer.page.get_by_text("This link is view-only.").wait_for()
     viewer.page.locator(".terminalhost").click()
     viewer.page.keyboard.type("iii")
