@@ -183,6 +183,17 @@ def test_a_rotation_beside_an_obstacle_is_refused() -> None:
     assert robot.commands == [(0.0, 0.0, 0.0)]
 
 
+def test_a_rotation_of_a_robot_that_does_not_turn_on_the_spot_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    car = Robot()
+    drive = car.drive
+    monkeypatch.setattr(car, "drive", lambda x, y, turn: drive(x, y, turn if x else 0.0))
+
+    _rotate(car)
+
+    assert car.yaw == 0.0
+    assert 3.0 < car.time_ns / 1e9 < 4.0
+
+
 def test_the_robot_moves_slowly_until_it_is_past_what_was_cleared() -> None:
     robot = Robot()
     costmaps: Any = robot

@@ -10,11 +10,14 @@ from trundle.gazebo.nodes.rate import Rate
 from trundle.navigation import _grids
 from trundle.robots.parameters import ParamError, RosParameters
 from trundle.ros import Node
+from trundle.spatial import NS_PER_S
 
 from ..costmap import CostmapRos
 from ..planners import LocalPlanner
 
 _CLEARABLE = ["obstacle_layer", "obstacles"]
+_STALL_S, _STALL_RAD = 3.0, 0.05
+"""A rotation is given up when the robot turns less than this in that time."""
 Drive = Callable[[float, float, float], None]
 
 
@@ -72,7 +75,7 @@ class ClearCostmapRecovery:
 
 
 class RotateRecovery:
-    """Turns the robot once around.
+    """Turns the robot once around; gives up if it does not turn, as a car.
 
     Parameters, with the original's defaults: sim_granularity 0.017, frequency 20; acc_lim_th 3.2, max_vel_theta 1,
     min_in_place_vel_theta 0.4 and yaw_goal_tolerance 0.1 of the local planner.
@@ -101,7 +104,8 @@ class RotateRecovery:
         node.log.warn("Rotate recovery behavior started.")
         rate = Rate(node, self._frequency_hz)
         begun = last = costmap.robot_pose()
-        turned = 0.0
+        turned = counted = 0.0
+        counted_ns = node.clock.now_ns()
         while begun is not None and not node.closed.is_set():
             pose = costmap.robot_pose()
             if pose is None or last is None:
@@ -110,6 +114,12 @@ class RotateRecovery:
             last = pose
             left = 2.0 * math.pi - turned
             if left <= self._tolerance:
+                break
+            now_ns = node.clock.now_ns()
+            if turned >= counted + _STALL_RAD:
+                counted, counted_ns = turned, now_ns
+            elif now_ns - counted_ns > _STALL_S * NS_PER_S:
+                node.log.warn(f"Rotate recovery is given up: the robot has not turned for {_STALL_S:g} s.")
                 break
             if not self._is_free(pose, left):
                 node.log.error(
