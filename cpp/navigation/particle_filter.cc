@@ -15,6 +15,7 @@ constexpr double kConvergedDistance = 0.5;  // [m]; amcl's
 // A set of max_particles would miss the pose in a large map: this many more are drawn, and the first scan reduces them.
 constexpr int kCandidatesPerParticle = 10, kMaxCandidates = 200'000;
 constexpr double kScanExponent = 6.0;
+constexpr double kAgreeingShare = 0.8;
 constexpr double kGoldenRatio = 0.6180339887498949;
 
 // Lower triangular root of a covariance; directions without variance have none.
@@ -125,11 +126,32 @@ bool ParticleFilter::has_converged() const {
   });
 }
 
+// True if most particles are near their median: a few random ones, of the recovery or of the first spread, do not
+// matter.
+bool ParticleFilter::has_agreed() const {
+  std::vector<double> x, y;
+  for (const auto& [pose, weight] : particles_) {
+    if (!std::isfinite(pose.x) || !std::isfinite(pose.y)) return false;
+    x.push_back(pose.x);
+    y.push_back(pose.y);
+  }
+  const auto middle = static_cast<std::ptrdiff_t>(particles_.size() / 2);
+  std::nth_element(x.begin(), x.begin() + middle, x.end());
+  std::nth_element(y.begin(), y.begin() + middle, y.end());
+  const double middle_x = *(x.begin() + middle), middle_y = *(y.begin() + middle);
+  const auto near = std::count_if(particles_.begin(), particles_.end(), [middle_x, middle_y](const Particle& particle) {
+    return std::abs(particle.pose.x - middle_x) <= kConvergedDistance &&
+           std::abs(particle.pose.y - middle_y) <= kConvergedDistance;
+  });
+  return static_cast<double>(near) >= kAgreeingShare * static_cast<double>(particles_.size());
+}
+
 void ParticleFilter::weigh(LaserModel& model, const LaserScan& scan) {
   std::vector<double> before;
   for (const auto& particle : particles_) before.push_back(particle.weight);
-  const bool is_converged = has_converged();
-  const double log_scale = model.weigh(particles_, scan, is_converged);
+  if (particles_.empty()) return;
+  const bool has_agreed_before = has_agreed();
+  const double log_scale = model.weigh(particles_, scan, has_converged());
   double total = 0.0;
   for (const auto& particle : particles_) total += particle.weight;
   if (!(total > 0.0)) {
@@ -143,7 +165,7 @@ void ParticleFilter::weigh(LaserModel& model, const LaserScan& scan) {
   fast_average_ =
       fast_average_ == 0.0 ? likelihood : fast_average_ + options_.alpha_fast * (likelihood - fast_average_);
   const bool has_candidates = particles_.size() > static_cast<std::size_t>(options_.max_particles);
-  if ((is_converged || has_candidates) && !model.is_sharp()) sharpen(before);
+  if ((has_agreed_before || has_candidates) && !model.is_sharp()) sharpen(before);
   if (has_candidates) draw();
 }
 

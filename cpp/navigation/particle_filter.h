@@ -53,6 +53,7 @@ class ParticleFilter {
   void draw();
   PlanarPose random_pose();
   bool has_converged() const;
+  bool has_agreed() const;
 
   FilterOptions options_;
   std::shared_ptr<const OccupancyMap> map_;
