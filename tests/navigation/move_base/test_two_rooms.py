@@ -52,7 +52,15 @@ def _clearance_m(x: float, y: float) -> float:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("planner", ["dwa_local_planner/DWAPlannerROS", "base_local_planner/TrajectoryPlannerROS"])
+@pytest.mark.parametrize(
+    "planner",
+    [
+        "dwa_local_planner/DWAPlannerROS",
+        "base_local_planner/TrajectoryPlannerROS",
+        "teb_local_planner/TebLocalPlannerROS",
+        "eband_local_planner/EBandPlannerROS",
+    ],
+)
 def test_a_goal_behind_a_door_is_reached_without_contact(planner: str, tmp_path: Path) -> None:
     recorded = _drive(tmp_path, f"planner:={planner}")
 

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from trundle.navigation.planners import find_global_planner, find_local_planner
-from trundle.navigation.planners.dwa_planner import DWAPlannerROS, DwaSettings
+from trundle.navigation.planners.dwa_planner import DwaSettings
 from trundle.navigation.planners.navfn import NavfnROS
 from trundle.navigation.planners.trajectory_planner import TrajectoryPlannerROS
 from trundle.navigation.settings import read_settings
@@ -39,28 +39,18 @@ def test_unknown_planners_are_refused_with_those_that_exist() -> None:
         find_global_planner(_NODE, "mine/Own", empty)
 
 
-def test_teb_is_answered_by_dwa_with_its_limits(caplog: pytest.LogCaptureFixture) -> None:
-    teb = {"max_vel_x": 0.8, "max_vel_x_backwards": 0.2, "acc_lim_theta": 2.0, "yaw_goal_tolerance": 0.08}
-    kind, space, settings = _found("teb_local_planner/TebLocalPlannerROS", TebLocalPlannerROS=teb)
+@pytest.mark.parametrize("name", ["teb_local_planner/TebLocalPlannerROS", "eband_local_planner/EBandPlannerROS"])
+def test_elastic_bands_are_planners_of_their_own(name: str, caplog: pytest.LogCaptureFixture) -> None:
+    kind, space, _ = find_local_planner(_NODE, name, RosParameters({}, "/move_base"))
 
-    assert (kind, space) == (DWAPlannerROS, "TebLocalPlannerROS")
-    assert (settings.max_vel_x, settings.max_vel_trans, settings.min_vel_x) == (0.8, 0.8, 0.0)
-    assert (settings.max_vel_y, settings.acc_lim_theta, settings.yaw_goal_tolerance) == (0.0, 2.0, 0.08)
-    assert settings.xy_goal_tolerance == 0.2  # TEB's default
-    assert "DWAPlannerROS is used in place of teb_local_planner/TebLocalPlannerROS" in caplog.text
+    assert (kind.__name__, space) == (space, name.partition("/")[2])
+    assert not caplog.text
 
 
-def test_tebs_cars_drive_backwards_and_its_holonomic_robots_sideways() -> None:
-    name = "teb_local_planner/TebLocalPlannerROS"
-    car = _found(name, TebLocalPlannerROS={"min_turning_radius": 0.5, "max_vel_x_backwards": 0.3})[2]
-    assert car.min_vel_x == -0.3
-    omni = _found(name, TebLocalPlannerROS={"max_vel_y": 0.3})[2]
-    assert (omni.min_vel_y, omni.max_vel_y, omni.vy_samples) == (-0.3, 0.3, 10)
-
-
-def test_limits_of_elastic_bands_and_of_dwb_have_other_names() -> None:
-    bands = {"max_vel_lin": 0.7, "min_in_place_vel_th": 0.2, "max_rotational_acceleration": 1.5}
-    settings = _found("eband_local_planner/EBandPlannerROS", EBandPlannerROS=bands)[2]
+def test_planners_are_answered_by_dwa_with_their_limits(caplog: pytest.LogCaptureFixture) -> None:
+    follower = {"max_vel_lin": 0.7, "min_in_place_vel_th": 0.2, "max_rotational_acceleration": 1.5}
+    settings = _found("pose_follower/PoseFollower", PoseFollower=follower)[2]
+    assert "DWAPlannerROS is used in place of pose_follower/PoseFollower" in caplog.text
     assert (settings.max_vel_x, settings.max_vel_trans) == (0.7, 0.7)
     assert (settings.min_vel_theta, settings.acc_lim_theta) == (0.2, 1.5)
 

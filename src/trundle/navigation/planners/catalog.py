@@ -17,6 +17,8 @@ GLOBAL_PLANNERS = {
 LOCAL_PLANNERS = {
     "base_local_planner/TrajectoryPlannerROS": "trundle.navigation.planners.trajectory_planner:TrajectoryPlannerROS",
     "dwa_local_planner/DWAPlannerROS": "trundle.navigation.planners.dwa_planner:DWAPlannerROS",
+    "eband_local_planner/EBandPlannerROS": "trundle.navigation.planners.elastic_bands:EBandPlannerROS",
+    "teb_local_planner/TebLocalPlannerROS": "trundle.navigation.planners.elastic_bands:TebLocalPlannerROS",
 }
 
 

@@ -16,7 +16,7 @@ _RPP = {
     "max_angular_accel": "acc_lim_theta",
     "goal_dist_tol": "xy_goal_tolerance",
 }
-_BANDS = {
+_POSE_FOLLOWER = {
     "max_vel_lin": "max_vel_x",
     "min_vel_lin": "min_vel_trans",
     "max_vel_th": "max_vel_theta",
@@ -26,37 +26,22 @@ _BANDS = {
     "tolerance_trans": "xy_goal_tolerance",
     "tolerance_rot": "yaw_goal_tolerance",
 }
-_TEB = {"max_vel_x": 0.4, "max_vel_theta": 0.3, "acc_lim_x": 0.5, "acc_lim_theta": 0.5}
-_TEB_TOLERANCES = {"xy_goal_tolerance": 0.2, "yaw_goal_tolerance": 0.2}
 
 
 def _like_dwa(names: Mapping[str, str]) -> Callable[[RosParameters], RosParameters]:
-    return lambda section: _on_wheels(section.renamed(names), {})
+    return lambda section: _on_wheels(section.renamed(names))
 
 
-def _from_teb(section: RosParameters) -> RosParameters:
-    """Return DWA's parameters from TEB's; only a car-like robot, which cannot turn on the spot, drives backwards."""
-    defaults = {**_TEB, **_TEB_TOLERANCES, "sim_time": 2.0}
-    if section.number("min_turning_radius", 0.0) > 0.0:
-        defaults["min_vel_x"] = -section.number("max_vel_x_backwards", 0.2)
-    if sideways := section.number("max_vel_y", 0.0):
-        defaults["min_vel_y"] = -sideways
-    return _on_wheels(section, defaults)
-
-
-def _on_wheels(section: RosParameters, defaults: dict[str, float]) -> RosParameters:
+def _on_wheels(section: RosParameters) -> RosParameters:
     """Return parameters with defaults: no sideways motion, and the speed limit ahead as the limit in all directions."""
-    straight = section.number("max_vel_x", defaults.get("max_vel_x", 0.55))
     sideways = section.number("max_vel_y", 0.0)
     still = {"max_vel_y": 0.0, "min_vel_y": 0.0, "vy_samples": 0} if sideways == 0.0 else {}
-    return section.with_defaults({"max_vel_trans": max(straight, sideways), **defaults, **still})
+    return section.with_defaults({"max_vel_trans": max(section.number("max_vel_x", 0.55), sideways), **still})
 
 
 SUBSTITUTES: dict[str, Callable[[RosParameters], RosParameters]] = {
-    "TebLocalPlannerROS": _from_teb,
-    "MpcLocalPlannerROS": _from_teb,
-    "EBandPlannerROS": _like_dwa(_BANDS),
-    "PoseFollower": _like_dwa(_BANDS),
+    "MpcLocalPlannerROS": _like_dwa({}),
+    "PoseFollower": _like_dwa(_POSE_FOLLOWER),
     "RegulatedPurePursuitController": _like_dwa(_RPP),
     "NeoLocalPlanner": _like_dwa({}),
     "MIRPlannerROS": _like_dwa({}),
