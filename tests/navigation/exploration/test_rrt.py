@@ -113,3 +113,19 @@ def test_two_robots_are_sent_to_different_points(graph: Any) -> None:
     graph.until(lambda: goals[0] and goals[1])
     places = {round(messages[-1].goal.target_pose.pose.position.y, 1) for messages in goals}
     assert places == {0.5, 1.5}
+
+
+@pytest.mark.usefixtures("move_base")
+def test_the_detector_of_pictures_finds_the_edges_of_all_regions(graph: Any) -> None:
+    """Unknown space begins at x = 1 m; a wall at y = 1 m divides the free space, and its edge."""
+    fields = grid(np.s_[1:39, 20:39])
+    fields["data"].reshape(40, 40)[20, :20] = 100
+    found = graph.listen("/detected_points", "geometry_msgs/PointStamped")
+    graph.client.advertise("/map", "nav_msgs/OccupancyGrid", latch=True).publish(fields)
+    graph.start("rrt_exploration/frontier_opencv_detector.py", map_topic="/map")
+
+    graph.until(lambda: len(found) >= 4)
+    points = sorted({(round(m.point.x, 3), round(m.point.y, 2)) for m in found})
+    assert [x for x, _ in points] == pytest.approx([1.025] * len(points))
+    assert points[0][1] < 0.6
+    assert points[-1][1] > 1.4

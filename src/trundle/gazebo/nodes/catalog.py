@@ -26,6 +26,8 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("dynamic_reconfigure", "reconfigure_gui"): "trundle.gazebo.nodes.rqt_windows:RqtReconfigure",
     ("explore_lite", "explore"): "trundle.navigation.exploration:Explore",
     ("fake_localization", "fake_localization"): "trundle.navigation.localization:FakeLocalization",
+    ("follow_waypoints", "follow_waypoints"): "trundle.navigation.waypoints:FollowWaypoints",
+    ("follow_waypoints", "follow_waypoints_node.py"): "trundle.navigation.waypoints:FollowWaypoints",
     ("frontier_exploration", "explore_client"): "trundle.navigation.exploration:ExploreClient",
     ("frontier_exploration", "explore_server"): "trundle.navigation.exploration:ExploreServer",
     ("gazebo_ros", "debug"): "trundle.gazebo.nodes.gazebo:GazeboServer",
@@ -118,6 +120,7 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("rqt_topic", "rqt_topic"): "trundle.gazebo.nodes.rqt_windows:RqtTopic",
     ("rrt_exploration", "assigner.py"): "trundle.navigation.exploration:RrtAssigner",
     ("rrt_exploration", "filter.py"): "trundle.navigation.exploration:RrtFilter",
+    ("rrt_exploration", "frontier_opencv_detector.py"): "trundle.navigation.exploration:FrontierDetector",
     ("rrt_exploration", "global_rrt_detector"): "trundle.navigation.exploration:GlobalRrtDetector",
     ("rrt_exploration", "local_rrt_detector"): "trundle.navigation.exploration:LocalRrtDetector",
     ("rviz", "rviz"): "trundle.gazebo.nodes.rviz:Rviz",
@@ -165,6 +168,8 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("twist_mux", "twist_mux"): "trundle.gazebo.nodes.twist_mux:TwistMux",
     ("usb_cam", "usb_cam_node"): "trundle.gazebo.nodes.camera_drivers:UsbCam",
     ("web_video_server", "web_video_server"): "trundle.gazebo.nodes.web_video_server:WebVideoServer",
+    ("yocs_waypoint_provider", "waypoint_provider"): "trundle.navigation.waypoints:WaypointProvider",
+    ("yocs_waypoints_navi", "yocs_waypoints_navi_node"): "trundle.navigation.waypoints:WaypointsNavi",
 }
 """(package, type) → "module:Class"."""
 
