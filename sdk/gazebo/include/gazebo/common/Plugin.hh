@@ -16,6 +16,7 @@
 #include <gazebo/physics/PhysicsTypes.hh>
 #include <gazebo/rendering/RenderTypes.hh>
 #include <gazebo/sensors/SensorTypes.hh>
+#include <gazebo/util/system.hh>
 
 #if defined(__GNUC__) || defined(__clang__)
 #define GZ_PLUGIN_VISIBLE __attribute__((visibility("default")))
