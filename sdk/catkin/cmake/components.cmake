@@ -31,7 +31,10 @@ macro(_trundle_read_component component)
     include("${CATKIN_DEVEL_PREFIX}/share/${component}/cmake/${component}Config.cmake")
   elseif(DEFINED _TRUNDLE_LIBRARIES_${component})
     foreach(_trundle_library IN LISTS _TRUNDLE_LIBRARIES_${component})
-      list(APPEND ${component}_LIBRARIES "${TRUNDLE_KIT}/lib/lib${_trundle_library}${CMAKE_SHARED_LIBRARY_SUFFIX}")
+      set(_trundle_file "${TRUNDLE_KIT}/lib/lib${_trundle_library}${CMAKE_SHARED_LIBRARY_SUFFIX}")
+      if(EXISTS "${_trundle_file}")  # some need libraries of the machine that were not there
+        list(APPEND ${component}_LIBRARIES "${_trundle_file}")
+      endif()
     endforeach()
     list(APPEND ${component}_LIBRARIES ${_TRUNDLE_BOOST_LIBRARIES} Threads::Threads)
     # Libraries of the machine that its headers need.

@@ -23,6 +23,7 @@ set(_TRUNDLE_LIBRARIES_nodelet nodelet bondcpp pluginlib class_loader roslib ${_
 set(_TRUNDLE_LIBRARIES_realtime_tools ${_TRUNDLE_LIBRARIES_roscpp})
 set(_TRUNDLE_LIBRARIES_control_toolbox control_toolbox ${_TRUNDLE_LIBRARIES_roscpp})
 set(_TRUNDLE_LIBRARIES_hardware_interface ${_TRUNDLE_LIBRARIES_roscpp})
+set(_TRUNDLE_LIBRARIES_combined_robot_hw pluginlib class_loader roslib ${_TRUNDLE_LIBRARIES_roscpp})
 set(_TRUNDLE_LIBRARIES_controller_interface controller_interface class_loader ${_TRUNDLE_LIBRARIES_roscpp})
 set(_TRUNDLE_LIBRARIES_controller_manager controller_manager pluginlib roslib ${_TRUNDLE_LIBRARIES_controller_interface})
 set(_TRUNDLE_LIBRARIES_forward_command_controller ${_TRUNDLE_LIBRARIES_controller_interface})
@@ -31,7 +32,8 @@ set(_TRUNDLE_LIBRARIES_transmission_interface transmission_interface ${_TRUNDLE_
 set(_TRUNDLE_LIBRARIES_gazebo_ros_control gazebo_ros_control transmission_interface control_toolbox urdf
   ${_TRUNDLE_LIBRARIES_controller_manager} ${_TRUNDLE_LIBRARIES_gazebo})
 set(_TRUNDLE_LIBRARIES_diagnostic_updater ${_TRUNDLE_LIBRARIES_roscpp})
-set(_TRUNDLE_LIBRARIES_image_transport ${_TRUNDLE_LIBRARIES_roscpp})
+set(_TRUNDLE_LIBRARIES_image_transport image_transport pluginlib class_loader roslib ${_TRUNDLE_LIBRARIES_roscpp})
+set(_TRUNDLE_LIBRARIES_compressed_image_transport compressed_image_transport ${_TRUNDLE_LIBRARIES_image_transport})
 set(_TRUNDLE_LIBRARIES_laser_geometry laser_geometry ${_TRUNDLE_LIBRARIES_tf})
 set(_TRUNDLE_LIBRARIES_tf_conversions ${_TRUNDLE_LIBRARIES_tf})
 set(_TRUNDLE_LIBRARIES_tf2_eigen ${_TRUNDLE_LIBRARIES_tf2_ros})
@@ -41,6 +43,8 @@ set(_TRUNDLE_LIBRARIES_interactive_markers interactive_markers ${_TRUNDLE_LIBRAR
 set(_TRUNDLE_LIBRARIES_rosbag_storage rosbag_storage rosconsole rostime)
 set(_TRUNDLE_LIBRARIES_rosbag rosbag_storage ${_TRUNDLE_LIBRARIES_roscpp})
 set(_TRUNDLE_LIBRARIES_urdf urdf ${_TRUNDLE_LIBRARIES_roscpp})
+set(_TRUNDLE_LIBRARIES_urdf_geometry_parser urdf_geometry_parser ${_TRUNDLE_LIBRARIES_urdf})
+set(_TRUNDLE_LIBRARIES_resource_retriever resource_retriever roslib)
 set(_TRUNDLE_LIBRARIES_image_geometry rostime)
 set(_TRUNDLE_LIBRARIES_camera_calibration_parsers camera_calibration_parsers rosconsole rostime)
 set(_TRUNDLE_LIBRARIES_camera_info_manager

@@ -3,7 +3,9 @@
 #include <rosgraph_msgs/Clock.h>
 #include <unistd.h>
 
+#include <map>
 #include <memory>
+#include <mutex>
 
 #include "connection_header.h"
 #include "node.h"
@@ -63,8 +65,9 @@ XmlRpcValue publisherUpdate(const XmlRpcValue& parameters) {
   return success(0);
 }
 
-const net::XmlRpcMethods& methods() {
-  static const net::XmlRpcMethods* const all = new net::XmlRpcMethods{
+/** Methods of every node. */
+const std::map<std::string, net::XmlRpcMethod>& ownMethods() {
+  static const auto* const all = new std::map<std::string, net::XmlRpcMethod>{
       {"requestTopic", requestTopic},
       {"publisherUpdate", publisherUpdate},
       {"paramUpdate",
@@ -94,6 +97,27 @@ const net::XmlRpcMethods& methods() {
       {"getSubscriptions", [](const XmlRpcValue&) { return success(topics::subscriptions()); }},
   };
   return *all;
+}
+
+/** Methods that the program has bound or unbound; an empty one is unbound. */
+struct Bound {
+  std::mutex mutex;
+  std::map<std::string, net::XmlRpcMethod> methods;
+};
+
+Bound& bound() {
+  static Bound* const all = new Bound;
+  return *all;
+}
+
+net::XmlRpcMethod findMethod(const std::string& name) {
+  {
+    const std::lock_guard<std::mutex> lock(bound().mutex);
+    const auto found = bound().methods.find(name);
+    if (found != bound().methods.end()) return found->second;
+  }
+  const auto found = ownMethods().find(name);
+  return found == ownMethods().end() ? net::XmlRpcMethod() : found->second;
 }
 
 /** Read the header of a peer that has connected, which names a topic or a service, and pass the peer on. */
@@ -139,8 +163,21 @@ void start() {
   net::Loop& loop = net::Loop::instance();
   loop.start();
   loop.accept(std::move(xml),
-              [&loop](net::Socket socket) { loop.add(net::serveXmlRpc(std::move(socket), methods())); });
+              [&loop](net::Socket socket) { loop.add(net::serveXmlRpc(std::move(socket), findMethod)); });
   loop.accept(std::move(data), acceptPeer);
+}
+
+bool bind(const std::string& name, const net::XmlRpcMethod& method) {
+  const std::lock_guard<std::mutex> lock(bound().mutex);
+  const auto found = bound().methods.find(name);
+  if (found == bound().methods.end() ? ownMethods().count(name) > 0 : bool(found->second)) return false;
+  bound().methods[name] = method;
+  return true;
+}
+
+void unbind(const std::string& name) {
+  const std::lock_guard<std::mutex> lock(bound().mutex);
+  bound().methods[name] = net::XmlRpcMethod();
 }
 
 void stop() {

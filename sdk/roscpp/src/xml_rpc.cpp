@@ -106,12 +106,12 @@ class HttpConnection : public Connection {
   std::string handle(const std::string& body) const {
     size_t end = 0;
     const std::string name = tagged(body, "methodName", 0, end);
-    const auto method = methods_.find(name);
+    const XmlRpcMethod method = methods_(name);
     XmlRpcValue fault;
     try {
-      if (method == methods_.end()) throw NetError("no method " + name.substr(0, 100));
+      if (!method) throw NetError("no method " + name.substr(0, 100));
       XmlRpcValue result;
-      result[0] = method->second(readParameters(body, end));
+      result[0] = method(readParameters(body, end));
       return "<?xml version=\"1.0\"?>\r\n<methodResponse>" + writeParameters(result) + "</methodResponse>\r\n";
     } catch (const XmlRpc::XmlRpcException& error) {
       fault["faultString"] = error.getMessage();
@@ -134,7 +134,7 @@ class HttpConnection : public Connection {
     return !body.empty();
   }
 
-  const XmlRpcMethods& methods_;
+  XmlRpcMethods methods_;
   std::string text_;
 };
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <string>
 
 #include "loop.h"
@@ -14,8 +13,10 @@ namespace net {
 XmlRpc::XmlRpcValue callXmlRpc(const std::string& host, uint16_t port, const std::string& method,
                                const XmlRpc::XmlRpcValue& parameters);
 
-/** Methods of this node by name; each returns the call's result. */
-typedef std::map<std::string, std::function<XmlRpc::XmlRpcValue(const XmlRpc::XmlRpcValue&)>> XmlRpcMethods;
+/** Method of this node: returns the call's result. */
+typedef std::function<XmlRpc::XmlRpcValue(const XmlRpc::XmlRpcValue&)> XmlRpcMethod;
+/** Finds a method by its name; an empty function if there is none. */
+typedef std::function<XmlRpcMethod(const std::string&)> XmlRpcMethods;
 
 /** Serve methods on a connection, one request after the other. */
 std::shared_ptr<Connection> serveXmlRpc(Socket socket, const XmlRpcMethods& methods);

@@ -9,7 +9,7 @@ class Exception : public std::runtime_error {
  public:
   explicit Exception(const std::string& message) : std::runtime_error(message) {}
 };
-/** A transport that is not there; only raw is. */
+/** A transport that is not there. */
 class TransportLoadException : public Exception {
  public:
   TransportLoadException(const std::string& transport, const std::string& message)

@@ -11,7 +11,7 @@
 
 namespace image_transport {
 
-/** Advertises and subscribes images, as they are. */
+/** Advertises and subscribes images by plugins: raw, compressed, and those that packages export. */
 class ImageTransport {
  public:
   typedef boost::function<void(const sensor_msgs::ImageConstPtr&)> ImageCallback;
@@ -19,21 +19,19 @@ class ImageTransport {
   explicit ImageTransport(const ros::NodeHandle& nh) : node_(nh) {}
 
   Publisher advertise(const std::string& base_topic, uint32_t queue_size, bool latch = false) {
-    return Publisher(node_.advertise<sensor_msgs::Image>(base_topic, queue_size, latch));
+    return advertise(base_topic, queue_size, SubscriberStatusCallback(), SubscriberStatusCallback(), ros::VoidPtr(),
+                     latch);
   }
   Publisher advertise(const std::string& base_topic, uint32_t queue_size, const SubscriberStatusCallback& connect_cb,
                       const SubscriberStatusCallback& disconnect_cb = SubscriberStatusCallback(),
                       const ros::VoidPtr& tracked_object = ros::VoidPtr(), bool latch = false) {
-    return Publisher(node_.advertise<sensor_msgs::Image>(base_topic, queue_size, adapted(connect_cb),
-                                                         adapted(disconnect_cb), tracked_object, latch));
+    return Publisher(node_, base_topic, queue_size, connect_cb, disconnect_cb, tracked_object, latch);
   }
 
   Subscriber subscribe(const std::string& base_topic, uint32_t queue_size, const ImageCallback& callback,
                        const ros::VoidPtr& tracked_object = ros::VoidPtr(),
                        const TransportHints& transport_hints = TransportHints()) {
-    requireRaw(transport_hints);
-    return Subscriber(node_.subscribe<sensor_msgs::Image>(base_topic, queue_size, callback, tracked_object,
-                                                          transport_hints.getRosHints()));
+    return Subscriber(node_, base_topic, queue_size, callback, tracked_object, transport_hints);
   }
   Subscriber subscribe(const std::string& base_topic, uint32_t queue_size,
                        void (*fp)(const sensor_msgs::ImageConstPtr&),
@@ -54,28 +52,27 @@ class ImageTransport {
   }
 
   CameraPublisher advertiseCamera(const std::string& base_topic, uint32_t queue_size, bool latch = false) {
+    return advertiseCamera(base_topic, queue_size, SubscriberStatusCallback(), SubscriberStatusCallback(),
+                           ros::SubscriberStatusCallback(), ros::SubscriberStatusCallback(), ros::VoidPtr(), latch);
+  }
+  CameraPublisher advertiseCamera(
+      const std::string& base_topic, uint32_t queue_size, const SubscriberStatusCallback& image_connect_cb,
+      const SubscriberStatusCallback& image_disconnect_cb = SubscriberStatusCallback(),
+      const ros::SubscriberStatusCallback& info_connect_cb = ros::SubscriberStatusCallback(),
+      const ros::SubscriberStatusCallback& info_disconnect_cb = ros::SubscriberStatusCallback(),
+      const ros::VoidPtr& tracked_object = ros::VoidPtr(), bool latch = false) {
     const std::string info = getCameraInfoTopic(node_.resolveName(base_topic));
-    return CameraPublisher(advertise(base_topic, queue_size, latch),
-                           node_.advertise<sensor_msgs::CameraInfo>(info, queue_size, latch));
+    return CameraPublisher(
+        advertise(base_topic, queue_size, image_connect_cb, image_disconnect_cb, tracked_object, latch),
+        node_.advertise<sensor_msgs::CameraInfo>(info, queue_size, info_connect_cb, info_disconnect_cb, tracked_object,
+                                                 latch));
   }
 
   CameraSubscriber subscribeCamera(const std::string& base_topic, uint32_t queue_size,
                                    const CameraSubscriber::Callback& callback,
                                    const ros::VoidPtr& tracked_object = ros::VoidPtr(),
                                    const TransportHints& transport_hints = TransportHints()) {
-    requireRaw(transport_hints);
-    CameraSubscriber subscriber;
-    subscriber.impl_ = boost::make_shared<CameraSubscriber::Impl>(node_, base_topic, queue_size, transport_hints);
-    if (tracked_object) {
-      const boost::weak_ptr<void> weak(tracked_object);
-      subscriber.impl_->sync.registerCallback(CameraSubscriber::Callback(
-          [weak, callback](const sensor_msgs::ImageConstPtr& image, const sensor_msgs::CameraInfoConstPtr& info) {
-            if (const ros::VoidPtr alive = weak.lock()) callback(image, info);
-          }));
-    } else {
-      subscriber.impl_->sync.registerCallback(callback);
-    }
-    return subscriber;
+    return CameraSubscriber(node_, base_topic, queue_size, callback, tracked_object, transport_hints);
   }
   CameraSubscriber subscribeCamera(const std::string& base_topic, uint32_t queue_size,
                                    void (*fp)(const sensor_msgs::ImageConstPtr&,
@@ -101,15 +98,12 @@ class ImageTransport {
                            transport_hints);
   }
 
-  std::vector<std::string> getDeclaredTransports() const { return std::vector<std::string>(1, "image_transport/raw"); }
-  std::vector<std::string> getLoadableTransports() const { return getDeclaredTransports(); }
+  /** Transports such as "image_transport/raw". */
+  std::vector<std::string> getDeclaredTransports() const;
+  /** Those of them whose library can be loaded. */
+  std::vector<std::string> getLoadableTransports() const;
 
  private:
-  static ros::SubscriberStatusCallback adapted(const SubscriberStatusCallback& callback) {
-    if (!callback) return ros::SubscriberStatusCallback();
-    return [callback](const ros::SingleSubscriberPublisher& peer) { callback(SingleSubscriberPublisher(peer)); };
-  }
-
   ros::NodeHandle node_;
 };
 

@@ -20,7 +20,7 @@ from trundle.base.ownership import home_folder, is_owned_by_user
 from . import message_header
 from .headers import Headers
 from .kit_cache import READY, mark_used, note_workspace, trim
-from .toolchain import Toolchain
+from .toolchain import Toolchain, codec_headers
 from .zig import zig_definitions
 
 _ROOT = Path(message_header.__file__).parents[4]
@@ -147,7 +147,8 @@ def _compile(sources: Path, folder: Path, toolchain: Toolchain, environment: Map
 
 def _digest(sources: Path, toolchain: Toolchain, flags: str) -> str:
     """Return a name that depends on the sources, compiler and flags: each release of Trundle compiles its own kit."""
-    digest = hashlib.sha256(f"{toolchain.compiler}\n{toolchain.version}\n{toolchain.boost}\n{flags}".encode())
+    compiler = f"{toolchain.compiler}\n{toolchain.version}\n{toolchain.boost}\n{flags}\n{codec_headers()}"
+    digest = hashlib.sha256(compiler.encode())
     generator = Path(message_header.__file__)
     for path in [generator, *sorted(path for path in sources.rglob("*") if path.is_file())]:
         digest.update(path.name.encode() + b"\0" + path.read_bytes())

@@ -16,6 +16,7 @@ from .zig import zig_definitions, zig_tools
 
 _COMPILERS = ("c++", "g++", "clang++")
 _HEADER, _EIGEN = "boost/shared_ptr.hpp", "Eigen/Core"
+_CODECS = ("jpeglib.h", "png.h")
 _HEADER_FOLDERS = ("/usr/include", "/usr/local/include", "/opt/homebrew/include", "/opt/local/include")
 
 
@@ -68,6 +69,11 @@ def find_toolchain(environment: Mapping[str, str]) -> Toolchain:
     assert ninja is not None
     prefix = None if str(boost) in ("/usr", "/usr/local") else boost
     return Toolchain(compiler, version, cmake, ninja, prefix, _eigen())
+
+
+def codec_headers() -> list[str]:
+    """Return the headers of the machine's libraries of JPEG and PNG that the kit's compressed images need."""
+    return [name for name in _CODECS if any(Path(folder, name).is_file() for folder in _HEADER_FOLDERS)]
 
 
 def _zig(environment: Mapping[str, str]) -> str:

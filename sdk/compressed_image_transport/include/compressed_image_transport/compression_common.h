@@ -1,0 +1,7 @@
+#pragma once
+
+namespace compressed_image_transport {
+
+enum compressionFormat { UNDEFINED = -1, JPEG, PNG };
+
+}  // namespace compressed_image_transport
