@@ -14,14 +14,13 @@
 #include <opencv2/imgcodecs.hpp>
 #define TRUNDLE_HAS_IMGCODECS
 #endif
-#if __has_include(<opencv2/imgproc/types_c.h>)
-#include <opencv2/imgproc/types_c.h>  // CV_BGR2HSV and the like
-#endif
 #endif
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "cv_bridge/opencv_c.h"
 
 namespace cv_bridge {
 

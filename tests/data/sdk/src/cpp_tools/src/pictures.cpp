@@ -87,11 +87,21 @@ void checkCameras() {
   CHECK(std::fabs(seen(0) / seen(3) - 2.5) < 1e-9 && std::fabs(seen(2) / seen(3) - 2.5) < 1e-9);
 }
 
+/** Names of OpenCV before 4, without a header of theirs. */
+void checkOldNames() {
+  const cv::Point corner = cvPoint(3, 4);
+  CHECK(corner == cv::Point(3, 4));
+  CHECK(CV_BGR2HSV == cv::COLOR_BGR2HSV && CV_FONT_HERSHEY_COMPLEX == cv::FONT_HERSHEY_COMPLEX);
+  CHECK(CV_AA == cv::LINE_AA && CV_LOAD_IMAGE_COLOR == 1 && CV_HAAR_SCALE_IMAGE == 2);
+  CHECK(cvGetTickCount() > 0 && cvRound(2.6) == 3);
+}
+
 }  // namespace
 
 int main() {
   ros::Time::init();
   checkCameras();
+  checkOldNames();
   const sensor_msgs::ImagePtr rgb = picture("rgb8", 2, 6, {0, 10, 20, 30, 40, 50});
   const cv_bridge::CvImagePtr bgr = cv_bridge::toCvCopy(rgb, sensor_msgs::image_encodings::BGR8);
   CHECK(bgr->image.at<cv::Vec3b>(0, 1) == cv::Vec3b(50, 40, 30) && bgr->header.frame_id == "eye");
