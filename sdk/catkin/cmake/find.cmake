@@ -8,6 +8,7 @@ if(NOT DEFINED CMAKE_LIBRARY_OUTPUT_DIRECTORY)
   set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CATKIN_DEVEL_PREFIX}/lib")
   set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${CATKIN_DEVEL_PREFIX}/lib")
 endif()
+include("${CMAKE_CURRENT_LIST_DIR}/link.cmake")
 if(NOT COMMAND _find_package)
   # A macro runs by the policies of its definition: those of a project may be older than CMake's own modules need.
   cmake_policy(PUSH)

@@ -19,6 +19,7 @@ if(NOT TRUNDLE_KIT)
 endif()
 
 include("${TRUNDLE_SDK}/catkin/cmake/libraries.cmake")
+include("${TRUNDLE_SDK}/catkin/cmake/link.cmake")
 file(GLOB GAZEBO_INCLUDE_DIRS LIST_DIRECTORIES TRUE "${TRUNDLE_SDK}/*/include")
 list(APPEND GAZEBO_INCLUDE_DIRS "${TRUNDLE_KIT}/include")
 if(TRUNDLE_BOOST_PREFIX)

@@ -1,4 +1,5 @@
-// A transport of images, and a part of a robot, as plugins.
+// A transport of images, and a part of a robot, as plugins; CMakeLists.txt does not name control_toolbox, as happens.
+#include <control_toolbox/pid.h>
 #include <hardware_interface/joint_command_interface.h>
 #include <hardware_interface/joint_state_interface.h>
 #include <hardware_interface/robot_hw.h>
@@ -31,7 +32,7 @@ class InvertedSubscriber : public image_transport::SimpleSubscriberPlugin<sensor
   }
 };
 
-/** A joint that is where it is commanded to be. */
+/** A joint that goes where it is commanded to be. */
 class Part : public hardware_interface::RobotHW {
  public:
   bool init(ros::NodeHandle&, ros::NodeHandle& nh) {
@@ -43,7 +44,9 @@ class Part : public hardware_interface::RobotHW {
     registerInterface(&commands_);
     return true;
   }
-  void read(const ros::Time&, const ros::Duration&) { position_ = command_; }
+  void read(const ros::Time&, const ros::Duration& period) {
+    position_ += pid_.computeCommand(command_ - position_, period);  // a gain of 1 reaches it at once
+  }
   bool prepareSwitch(const std::list<hardware_interface::ControllerInfo>& start,
                      const std::list<hardware_interface::ControllerInfo>&) {
     for (const hardware_interface::ControllerInfo& controller : start)
@@ -53,6 +56,7 @@ class Part : public hardware_interface::RobotHW {
   }
 
  private:
+  control_toolbox::Pid pid_{1.0, 0.0, 0.0, 0.0, 0.0};
   std::string name_;
   double position_ = 0, velocity_ = 0, effort_ = 0, command_ = 0;
   hardware_interface::JointStateInterface states_;

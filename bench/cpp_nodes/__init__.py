@@ -1,0 +1,1 @@
+"""Compiled C++ of checked-out repositories: which targets compile, start, and are loaded."""

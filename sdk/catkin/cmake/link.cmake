@@ -1,0 +1,8 @@
+# All libraries of the kit at the end of each link: those are taken whose symbols are still missing. In ROS a plugin
+# finds the symbols of a library that its CMakeLists.txt forgets in the program that loads it.
+if(NOT APPLE AND NOT WIN32 AND NOT "${CMAKE_CXX_STANDARD_LIBRARIES}" MATCHES "as-needed")
+  file(GLOB _trundle_files "${TRUNDLE_KIT}/lib/*.so")
+  list(JOIN _trundle_files "\" \"" _trundle_files)
+  string(APPEND CMAKE_CXX_STANDARD_LIBRARIES
+    " -Wl,--push-state,--as-needed \"${_trundle_files}\" -Wl,--pop-state -Wl,-rpath,\"${TRUNDLE_KIT}/lib\"")
+endif()
