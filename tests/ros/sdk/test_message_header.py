@@ -28,6 +28,16 @@ def test_a_header_has_gencpps_names_and_the_types_sum(messages: Messages) -> Non
     assert "IsFixedSize" in message_header(messages, "geometry_msgs/Pose")
 
 
+def test_only_a_first_header_is_the_messages_header() -> None:
+    """roscpp writes a message's number into its first four bytes, which would be those of another field."""
+    messages = Messages()
+    messages.add("demo/Late", "string name\nstd_msgs/Header header\n")
+    messages.add("demo/First", "std_msgs/Header header\nstring name\n")
+
+    assert "HasHeader" not in message_header(messages, "demo/Late")
+    assert "HasHeader" in message_header(messages, "demo/First")
+
+
 def test_constants_keep_their_types_and_their_text() -> None:
     messages = Messages()
     messages.add(

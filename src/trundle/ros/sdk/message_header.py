@@ -276,7 +276,10 @@ bool operator!=({left} lhs, {right} rhs) {{
 
 def _traits(messages: Definitions, type_name: str, full: str, fields: Sequence[_Field]) -> str:
     facts = ["IsMessage"]
-    if any(field.name == "header" and field.element == "std_msgs/Header" and field.length is None for field in fields):
+    # Only a first field: the number of a message is written into its first four bytes.
+    if any(
+        field.name == "header" and field.element == "std_msgs/Header" and field.length is None for field in fields[:1]
+    ):
         facts.append("HasHeader")
     if _is_fixed(messages, type_name, {}):
         facts.append("IsFixedSize")
