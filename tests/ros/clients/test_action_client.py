@@ -67,3 +67,24 @@ def test_the_end_of_a_cancelled_goal_is_not_reported() -> None:
         until(lambda: ends)
         assert states == []
         graph.ready(node)
+
+
+@pytest.mark.parametrize("remapped", ["client", "server"])
+def test_a_remapping_of_an_actions_name_holds_for_its_topics(remapped: str) -> None:
+    """As actionlib's, whose topics are in the namespace of the remapped name."""
+    states: list[int] = []
+
+    async def execute(_goal: Any, accept: Callable[[], None]) -> ActionResult:
+        accept()
+        return ActionResult()
+
+    with running_graph() as graph:
+        names = {"client": "/drive", "server": "/drive", remapped: "/go"}
+        nodes = {end: graph.node(f"/{end}", remappings={"/go": "/drive"} if end == remapped else {}) for end in names}
+        client = ActionClient(nodes["client"], names["client"], TYPE)
+        ActionServer(nodes["server"], names["server"], TYPE, execute)
+        until(lambda: client.has_server)
+        client.send({}, states.append)
+        until(lambda: states)
+        assert states == [3]
+        graph.ready(*nodes.values())

@@ -37,6 +37,7 @@ class ActionClient:
         self._on_feedback: Callable[[Message], object] | None = None
         self.result: Message | None = None
         """Result of the goal that ended last, set before `on_done` is called."""
+        name = node.resolve(name)  # a remapping of the action's name holds for its topics
         self._goals = node.advertise(f"{name}/goal", f"{type_name}ActionGoal", queue_size=10)
         self._cancels = node.advertise(f"{name}/cancel", "actionlib_msgs/GoalID", queue_size=10)
         node.subscribe(f"{name}/status", "actionlib_msgs/GoalStatusArray", self._receive_status, queue_size=10)

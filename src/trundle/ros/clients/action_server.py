@@ -68,6 +68,7 @@ class ActionServer:
         self._concurrent = concurrent
         self._goals: dict[str, _Goal] = {}
         self._numbers = itertools.count(1)
+        name = node.resolve(name)  # a remapping of the action's name holds for its topics
         self._result = node.advertise(f"{name}/result", f"{type_name}ActionResult", queue_size=50)
         self._feedback = node.advertise(f"{name}/feedback", f"{type_name}ActionFeedback", queue_size=50)
         self._status = node.advertise(f"{name}/status", "actionlib_msgs/GoalStatusArray", latch=True, queue_size=50)
