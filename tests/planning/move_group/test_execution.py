@@ -7,6 +7,9 @@ import pytest
 from tests.planning.move_group.arm_graph import ARM, add, box, joint_goal, request, send, start_arm
 
 from trundle.planning.move_group.controllers import path_from_message, path_message
+from trundle.planning.move_group.settings import read_settings
+from trundle.planning.move_group.trajectory_execution import ExecutionSettings
+from trundle.robots.parameters import RosParameters
 from trundle.ros import ActionResult, ActionServer, Messages
 
 _HOME = [0.0, 0.0, 0.0, 0.0, 0.8, 0.0]
@@ -135,6 +138,38 @@ def test_trajectories_are_split_among_actions_of_controllers(graph: Any) -> None
     assert arm.goal_tolerance[0].name == "joint_1"
     command = goals["/gripper/gripper_cmd"].command
     assert (command.position, command.max_effort) == (0.01, 12.0)
+
+
+def test_a_controller_may_have_no_name_but_a_namespace(graph: Any) -> None:
+    """xArm's: its action is at the node's root, and remapped by launch files."""
+    goals: list[Any] = []
+
+    async def work(goal: Any, accept: Any) -> ActionResult:
+        accept()
+        goals.append(goal)
+        return ActionResult(result={})
+
+    ActionServer(graph.client, "/follow_joint_trajectory", "control_msgs/FollowJointTrajectory", work)
+    listed = [{"name": "", "action_ns": "follow_joint_trajectory", "type": "FollowJointTrajectory", "joints": ARM}]
+    manager = "moveit_simple_controller_manager/MoveItSimpleControllerManager"
+    start_arm(graph, zeros={"joint_5": 0.8}, controller_list=listed, moveit_controller_manager=manager)
+
+    result = send(graph, "execute_trajectory", _EXECUTE, {"trajectory": _trajectory(_HOME, [0.1, *_HOME[1:]])})
+
+    assert result.result.error_code.val == 1
+    assert list(goals[0].trajectory.joint_names) == ARM
+
+
+def test_settings_of_execution_are_within_the_bounds_of_its_dynamic_reconfigure() -> None:
+    """Crane X7's launch files ask for 0.6 of a trajectory's duration, and MoveIt lets it take the whole."""
+    warnings: list[str] = []
+    tree = {"allowed_execution_duration_scaling": 0.6, "allowed_goal_duration_margin": 99.0}
+
+    settings = read_settings(ExecutionSettings, RosParameters(tree, "/trajectory_execution", warn=warnings.append))
+
+    assert settings.allowed_execution_duration_scaling == 1.0
+    assert settings.allowed_goal_duration_margin == 30.0
+    assert "must be ≥ 1, got 0.6" in warnings[0]
 
 
 def test_a_path_is_the_same_after_a_message() -> None:

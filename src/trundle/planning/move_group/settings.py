@@ -27,6 +27,7 @@ def read_settings(kind: type[_Settings], parameters: RosParameters) -> _Settings
         meta = next(iter(getattr(hints[name], "__metadata__", ())), None)
         if meta is not None and not isinstance(default, bool | str):
             lower = float("-inf") if meta.ge is None else float(meta.ge)
-            value = type(default)(parameters.clamped(name, value, lower, float("inf")))
+            upper = float("inf") if meta.le is None else float(meta.le)
+            value = type(default)(parameters.clamped(name, value, lower, upper))
         values[name] = value
     return kind(**values)

@@ -8,7 +8,7 @@ import msgspec
 import numpy as np
 from msgspec import Meta
 
-from trundle.robots.parameters import ParamError, RosParameters
+from trundle.robots.parameters import RosParameters
 from trundle.ros import Node
 from trundle.spatial import NS_PER_S
 
@@ -16,7 +16,6 @@ from .controllers import Controller, ControllerSource, JointPath, Outcome, read_
 from .current_state_monitor import CurrentStateMonitor
 from .robot_description import RobotDescription
 
-_Share = Annotated[float, Meta(ge=0.0)]
 _STATE_WAIT_S = 1.0
 _STOP_WAIT_S = 1.0
 _STILL = 1e-4
@@ -25,13 +24,13 @@ _LOOK_S = 0.05
 
 
 class ExecutionSettings(msgspec.Struct, kw_only=True):
-    """Parameters of ~trajectory_execution, with the original's defaults."""
+    """Parameters of ~trajectory_execution, with the original's defaults and its dynamic_reconfigure's bounds."""
 
     execution_duration_monitoring: bool = True
-    allowed_execution_duration_scaling: _Share = 1.1
-    allowed_goal_duration_margin: _Share = 0.5
-    execution_velocity_scaling: Annotated[float, Meta(gt=0.0)] = 1.0
-    allowed_start_tolerance: _Share = 0.01
+    allowed_execution_duration_scaling: Annotated[float, Meta(ge=1.0, le=10.0)] = 1.1
+    allowed_goal_duration_margin: Annotated[float, Meta(ge=0.1, le=30.0)] = 0.5
+    execution_velocity_scaling: Annotated[float, Meta(ge=0.1, le=10.0)] = 1.0
+    allowed_start_tolerance: Annotated[float, Meta(ge=0.0)] = 0.01
     wait_for_trajectory_completion: bool = True
 
 
@@ -249,13 +248,3 @@ class TrajectoryExecution:
             if np.all(np.abs(now - before) < _STILL):
                 return
             before = now
-
-
-def check_settings(settings: ExecutionSettings) -> None:
-    """Check what divides.
-
-    Raises:
-        ParamError: the velocity scaling is not above 0.
-    """
-    if not settings.execution_velocity_scaling > 0.0:
-        raise ParamError("parameter trajectory_execution/execution_velocity_scaling must be > 0")

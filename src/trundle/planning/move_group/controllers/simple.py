@@ -46,11 +46,11 @@ class SimpleControllers:
 def _controller(node: Node, entry: RosParameters) -> Controller | None:
     """Make a controller of an entry; None if it is incomplete, or of an unknown type."""
     name, kind, joints = entry.text("name", ""), entry.text("type", ""), entry.texts("joints")
-    if not name or not kind or not joints:
+    namespace = entry.text("action_ns", "")
+    if "name" not in entry or not kind or not joints or not (name or namespace):
         node.log.error(f"{entry.namespace}: name, joints, action_ns, and type must be specified for each controller")
         return None
-    namespace = entry.text("action_ns", "")
-    action = f"{name}/{namespace}" if namespace else name
+    action = "/".join(part for part in (name, namespace) if part)
     is_default = entry.flag("default", default=False)
     if kind == "FollowJointTrajectory":
         node.log.info(f"Added FollowJointTrajectory controller for {name}")
