@@ -88,3 +88,58 @@ def test_a_remapping_of_an_actions_name_holds_for_its_topics(remapped: str) -> N
         until(lambda: states)
         assert states == [3]
         graph.ready(*nodes.values())
+
+
+def test_a_cancellation_that_comes_before_its_goal_recalls_it() -> None:
+    """Goals and cancellations come on two connections, in any order."""
+    worked: list[str] = []
+
+    async def execute(goal: Any, accept: Callable[[], None]) -> ActionResult:
+        accept()
+        worked.append(goal.target_pose.header.frame_id)
+        await never.wait()
+        return ActionResult()
+
+    with running_graph() as graph:
+        node = graph.node("/driver")
+        never = node.closed
+        server = ActionServer(node, "/drive", TYPE, execute)
+        results: list[Any] = []
+        node.subscribe("/drive/result", f"{TYPE}ActionResult", results.append)
+        goals = node.advertise("/drive/goal", f"{TYPE}ActionGoal")
+        cancels = node.advertise("/drive/cancel", "actionlib_msgs/GoalID")
+        until(lambda: goals.has_subscribers and cancels.has_subscribers)
+        goals.publish({"goal_id": {"id": "probe"}, "goal": {"target_pose": {"header": {"frame_id": "probe"}}}})
+        until(lambda: server.active)
+
+        cancels.publish({"id": "early"})
+        cancels.publish({"id": "probe"})
+        until(lambda: results)
+        goals.publish({"goal_id": {"id": "early"}})
+        until(lambda: len(results) == 2)
+
+        assert worked == ["probe"]
+        assert [(one.status.goal_id.id, one.status.status) for one in results] == [("probe", 2), ("early", 8)]
+        graph.ready(node)
+
+
+def test_goals_that_replace_each_other_at_once_all_have_a_result() -> None:
+    async def execute(_goal: Any, accept: Callable[[], None]) -> ActionResult:
+        accept()
+        return ActionResult()
+
+    with running_graph() as graph:
+        node = graph.node("/driver")
+        ActionServer(node, "/drive", TYPE, execute)
+        ended: list[str] = []
+        node.subscribe(
+            "/drive/result", f"{TYPE}ActionResult", lambda m: ended.append(m.status.goal_id.id), queue_size=None
+        )
+        goals = node.advertise("/drive/goal", f"{TYPE}ActionGoal", queue_size=None)
+        until(lambda: goals.has_subscribers)
+        for number in range(20):
+            goals.publish({"goal_id": {"id": str(number)}})
+        until(lambda: len(ended) == 20)
+        graph.ready(node)
+
+        assert sorted(ended, key=int) == [str(number) for number in range(20)]

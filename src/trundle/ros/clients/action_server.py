@@ -17,7 +17,7 @@ _STATUS_RATE_HZ = 5.0
 _STATUS_LIST_TIMEOUT_S = 5.0
 """Time a finished goal stays in the status list, as in actionlib."""
 _PENDING, _ACTIVE = 0, 1
-_NUMBERS = {"preempted": 2, "succeeded": 3, "aborted": 4, "rejected": 5}
+_NUMBERS = {"preempted": 2, "succeeded": 3, "aborted": 4, "rejected": 5, "recalled": 8}
 _MAX_GOALS = 1000
 
 
@@ -25,7 +25,7 @@ _MAX_GOALS = 1000
 class ActionResult:
     """Terminal state and result of a goal."""
 
-    status: Literal["succeeded", "aborted", "preempted", "rejected"] = "succeeded"
+    status: Literal["succeeded", "aborted", "preempted", "rejected", "recalled"] = "succeeded"
     result: Mapping[str, object] = field(default_factory=dict[str, Any])
     text: str = ""
 
@@ -38,6 +38,9 @@ class _Goal:
     status: int = _PENDING
     text: str = ""
     task: asyncio.Task[None] | None = None
+    is_running: bool = False
+    is_recalled: bool = False
+    """True: cancelled before it ran."""
     ended_ns: int | None = None
 
 
@@ -68,6 +71,8 @@ class ActionServer:
         self._concurrent = concurrent
         self._goals: dict[str, _Goal] = {}
         self._numbers = itertools.count(1)
+        self._early_cancels: dict[str, int] = {}
+        """ID → time of cancellations that came before their goals, on another connection [ns]."""
         name = node.resolve(name)  # a remapping of the action's name holds for its topics
         self._result = node.advertise(f"{name}/result", f"{type_name}ActionResult", queue_size=50)
         self._feedback = node.advertise(f"{name}/feedback", f"{type_name}ActionFeedback", queue_size=50)
@@ -113,6 +118,7 @@ class ActionServer:
                 self._stop(other)
         goal = _Goal(id={"stamp": stamp, "id": key}, stamp_ns=stamp, message=message.goal)
         self._goals[key] = goal
+        goal.is_recalled = self._early_cancels.pop(key, None) is not None
         goal.task = asyncio.get_running_loop().create_task(self._run(goal, message.goal))
 
     def _on_cancel(self, message: "actionlib_msgs.GoalID") -> None:
@@ -122,9 +128,13 @@ class ActionServer:
             everything = not message.id and stamp == 0
             if everything or key == message.id or (stamp and goal.stamp_ns <= stamp):
                 self._stop(goal)
+        if message.id and message.id not in self._goals and len(self._early_cancels) < _MAX_GOALS:
+            self._early_cancels[message.id] = self._node.clock.now_ns()
 
     def _stop(self, goal: _Goal) -> None:
-        if goal.task is not None and goal.status in (_PENDING, _ACTIVE):
+        if not goal.is_running:
+            goal.is_recalled = True  # a task that is cancelled before it runs would publish no result
+        elif goal.task is not None and goal.status in (_PENDING, _ACTIVE):
             goal.task.cancel()
 
     async def _run(self, goal: _Goal, message: Message) -> None:
@@ -133,8 +143,9 @@ class ActionServer:
                 goal.status = _ACTIVE
                 self._publish_status()
 
+        goal.is_running = True
         try:
-            result = await self._work(message, accept)
+            result = ActionResult(status="recalled") if goal.is_recalled else await self._work(message, accept)
         except asyncio.CancelledError:
             result = ActionResult(status="preempted")
         goal.status, goal.text = _NUMBERS[result.status], result.text
@@ -153,6 +164,9 @@ class ActionServer:
             ]
             for key in old:
                 del self._goals[key]
+            for key, cancelled_ns in list(self._early_cancels.items()):
+                if now - cancelled_ns > _STATUS_LIST_TIMEOUT_S * 1e9:
+                    del self._early_cancels[key]
             self._publish_status()
             await self._node.clock.sleep(1.0 / _STATUS_RATE_HZ)
 
