@@ -298,7 +298,7 @@ def test_every_library_is_importable(tmp_path: Path) -> None:
     names = (
         "PyKDL actionlib angles cv_bridge diagnostic_updater dynamic_reconfigure.server dynamic_reconfigure.client "
         "image_geometry interactive_markers.interactive_marker_server interactive_markers.menu_handler laser_geometry "
-        "message_filters ros_numpy rosbag sensor_msgs.point_cloud2 smach smach_ros tf tf.transformations "
+        "message_filters ros_numpy rosbag sensor_msgs.point_cloud2 six.moves smach smach_ros tf tf.transformations "
         "tf2_geometry_msgs tf2_py tf2_ros tf2_sensor_msgs tf_conversions.posemath urdf_parser_py.urdf xacro"
     )
     code = f"import importlib\nfor name in {names.split()!r}: importlib.import_module(name)\nprint('all')"
