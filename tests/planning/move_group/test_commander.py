@@ -13,8 +13,9 @@ import trundle
 _SITE = Path(trundle.__file__).parent / "ros/rospy/site"
 _BEGIN = """
 import sys
-import rospy, moveit_commander
+import genpy, rospy, moveit_commander
 from geometry_msgs.msg import Pose, PoseStamped
+from moveit_msgs.msg import RobotState
 from moveit_commander.conversions import list_to_pose, pose_to_list
 moveit_commander.roscpp_initialize(sys.argv)
 rospy.init_node("program")
@@ -63,6 +64,16 @@ arm.clear_pose_targets()
 assert arm.go("home")
 slow = arm.retime_trajectory(robot.get_current_state(), path, 0.1, 0.1)
 assert slow.joint_trajectory.points[-1].time_from_start > path.joint_trajectory.points[-1].time_from_start
+assert not arm.retime_trajectory(robot.get_current_state(), path, 0.1, 0.1, algorithm="").joint_trajectory.points
+state = robot.get_current_state()
+assert state.multi_dof_joint_state.header.frame_id == "base_link" and not state.joint_state.header.stamp.to_sec()
+try:
+    arm.enforce_bounds(RobotState())
+except genpy.DeserializationError:
+    pass
+else:
+    raise AssertionError("bounds of an empty state")
+assert scene._apply_planning_scene_diff.resolved_name == "/apply_planning_scene"
 assert arm.get_jacobian_matrix(arm.get_current_joint_values()).shape == (6, 6)
 assert robot.get_joint("joint_2").bounds() == [-1.9, 2.1]
 assert robot.joint_5.move(0.5) and abs(robot.get_joint("joint_5").value() - 0.5) < 1e-3

@@ -109,7 +109,8 @@ def test_circ_is_an_arc(name: str) -> None:
     [
         ({"planner": "LIN", "goal": (3.0, 0.0, 0.0)}, ErrorCode.NO_IK_SOLUTION, "LIN: after"),
         ({"planner": "LIN", "goal": (0.0, 0.4, 0.0)}, ErrorCode.INVALID_MOTION_PLAN, "in collision"),
-        ({"planner": "PTP", "goal": (0.0, 0.4, 0.0)}, ErrorCode.NO_IK_SOLUTION, "no valid state of the goal"),
+        ({"planner": "PTP", "goal": (3.0, 0.0, 0.0)}, ErrorCode.NO_IK_SOLUTION, "no valid state of the goal"),
+        ({"planner": "PTP", "goal": (0.0, 0.4, 0.0)}, ErrorCode.INVALID_MOTION_PLAN, "PTP: the goal is in collision"),
         ({"planner": "CIRC", "goal": (0.0, 0.1, 0.0)}, ErrorCode.INVALID_MOTION_PLAN, "CIRC needs path constraints"),
         ({"planner": "LIN", "goal": (0.0, 0.1, 0.0), "velocity_scaling": 0.0}, ErrorCode.INVALID_MOTION_PLAN, "scal"),
     ],

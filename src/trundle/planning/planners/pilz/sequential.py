@@ -76,9 +76,13 @@ def _goal_state(problem: GroupProblem, request: MotionPlanRequest) -> NDArray[np
     start = np.ascontiguousarray(problem.reference[problem.indices])
     goal = problem.goal(request.goals[0])
     states = _planning.goal_states(problem.scene.world, problem.task, start, [goal], 1, _GOAL_SAMPLES, request.seed)
-    if not len(states):
-        raise RequestError(ErrorCode.NO_IK_SOLUTION, f"group {request.group!r} reaches no valid state of the goal")
-    return states[0]
+    if len(states):
+        return states[0]
+    free = GroupProblem(problem.scene, request.group, problem.reference, avoids_collisions=False)
+    goal = free.goal(request.goals[0])
+    if len(_planning.goal_states(free.scene.world, free.task, start, [goal], 1, _GOAL_SAMPLES, request.seed)):
+        raise RequestError(ErrorCode.INVALID_MOTION_PLAN, f"{request.planner}: the goal is in collision")
+    raise RequestError(ErrorCode.NO_IK_SOLUTION, f"group {request.group!r} reaches no valid state of the goal")
 
 
 def _cartesian(problem: GroupProblem, request: MotionPlanRequest, kind: str) -> Trajectory:

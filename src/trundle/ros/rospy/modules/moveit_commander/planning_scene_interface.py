@@ -11,6 +11,7 @@ from moveit_msgs.msg import (
     CollisionObject,
     PlanningScene,
 )
+from moveit_msgs.srv import ApplyPlanningScene
 from shape_msgs.msg import Plane, SolidPrimitive
 
 import rospy
@@ -30,7 +31,11 @@ class PlanningSceneInterface:
         """Connect to a namespace; `synchronous`: each change returns when it is applied, otherwise it is published."""
         self._psi = _moveit_planning_scene_interface.PlanningSceneInterface(ns, wait=synchronous)
         self._is_synchronous = synchronous
-        if not synchronous:
+        if synchronous:
+            self._apply_planning_scene_diff: Any = rospy.ServiceProxy(
+                in_namespace(ns, "apply_planning_scene"), ApplyPlanningScene
+            )
+        else:
             self._pub_co = rospy.Publisher(in_namespace(ns, "collision_object"), CollisionObject, queue_size=100)
             self._pub_aco = rospy.Publisher(
                 in_namespace(ns, "attached_collision_object"), AttachedCollisionObject, queue_size=100
@@ -46,7 +51,10 @@ class PlanningSceneInterface:
             scene.robot_state.attached_collision_objects = [item]
         else:
             scene.world.collision_objects = [item]
-        self._psi.apply_planning_scene(to_bytes(scene))
+        try:
+            self._apply_planning_scene_diff(scene)
+        except rospy.ServiceException as error:
+            rospy.logwarn(f"Failed to call ApplyPlanningScene service: {error}")
 
     # -- objects of the world
 

@@ -33,7 +33,7 @@ import rospy
 from trundle.base.diagnostics import TrundleError
 
 from .group_targets import GroupTargets
-from .retiming import retimed
+from .retiming import RETIMING_ALGORITHMS, retimed
 from .robot_state import in_namespace, pose_from_list, stamped
 from .serialization import from_bytes, to_bytes
 
@@ -330,6 +330,10 @@ class MoveGroupInterface(GroupTargets):
     ) -> bytes:
         """Return the serialized trajectory with new times, velocities and accelerations; empty if that fails."""
         del reference  # velocities and accelerations are limited for each joint alone
+        if algorithm not in RETIMING_ALGORITHMS:
+            known = ", ".join(RETIMING_ALGORITHMS)
+            rospy.logerr(f"Unknown time parameterization algorithm: {algorithm}; algorithms: {known}")
+            return to_bytes(RobotTrajectory())
         message: Any = from_bytes(RobotTrajectory, trajectory)
         try:
             return to_bytes(retimed(self._robot.model, message, velocity_scaling, acceleration_scaling, algorithm))
@@ -346,8 +350,11 @@ class MoveGroupInterface(GroupTargets):
         return to_bytes(self._robot.message(self._bounded(self._robot.positions())))
 
     def enforce_bounds(self, state: bytes) -> bytes:
-        """Return a serialized moveit_msgs/RobotState with each position within its limits."""
+        """Return a serialized moveit_msgs/RobotState with each position within its limits; b"" for an empty one."""
         message: Any = from_bytes(RobotState, state)
+        if not message.joint_state.name and not message.multi_dof_joint_state.joint_names:
+            rospy.logerr("Found empty JointState message")
+            return b""
         values = self._bounded(self._robot.with_message(self._robot.positions(), message))
         result = self._robot.message(values)
         result.attached_collision_objects = message.attached_collision_objects

@@ -10,6 +10,12 @@ from trundle.planning.trajectories import find_method, motion_limits, parameteri
 if TYPE_CHECKING:
     from trundle.planning.robot_model import RobotModel
 
+RETIMING_ALGORITHMS = (
+    "iterative_time_parameterization",
+    "iterative_spline_parameterization",
+    "time_optimal_trajectory_generation",
+)
+
 
 def retimed(
     model: "RobotModel",
@@ -25,11 +31,10 @@ def retimed(
         trajectory: moveit_msgs/RobotTrajectory.
         velocity_scaling: share of the greatest velocities, in (0, 1].
         acceleration_scaling: share of the greatest accelerations, in (0, 1].
-        algorithm: `iterative_time_parameterization`, `iterative_spline_parameterization` or
-            `time_optimal_trajectory_generation`.
+        algorithm: one of `RETIMING_ALGORITHMS`.
 
     Raises:
-        TrundleError: a joint or the algorithm is unknown, or the points do not fit the joints.
+        TrundleError: a joint is unknown, or the points do not fit the joints.
     """
     joints = trajectory.joint_trajectory
     waypoints = np.array([list(point.positions) for point in joints.points], dtype=np.float64)

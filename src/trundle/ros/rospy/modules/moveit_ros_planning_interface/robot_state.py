@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from geometry_msgs.msg import Pose, PoseStamped
+from geometry_msgs.msg import Pose, PoseStamped, Transform
 from moveit_msgs.msg import RobotState
 from sensor_msgs.msg import JointState
 
@@ -72,13 +72,14 @@ class SharedRobot:
 
     def _read(self) -> RobotModel:
         texts: list[str] = []
+        key: str | None = ""
         for name in (self.description, f"{self.description}_semantic"):
-            key = rospy.search_param(in_namespace(self.namespace, name)) or rospy.search_param(name)
+            key = _find_parameter(name) or _find_parameter(in_namespace(self.namespace, name))
             if key is None:
                 what = "Please make sure all needed information is on the parameter server"
                 raise RuntimeError(f"Unable to construct robot model. {what}: {name} is not set")
             texts.append(str(rospy.get_param(key)))
-        limits = rospy.get_param(f"{in_namespace(self.namespace, self.description)}_planning/joint_limits", {})
+        limits = rospy.get_param(f"{key.removesuffix('_semantic')}_planning/joint_limits", {})
         try:
             return robot_model(texts[0], texts[1], limits, Diagnostics())
         except TrundleError as error:
@@ -150,14 +151,7 @@ class SharedRobot:
             found = transform_buffer().lookup_transform(parent, joint.child_link, rospy.Time()).transform
         except tf2_ros.TransformException:
             return
-        t, q = found.translation, found.rotation
-        if joint.type == "planar":
-            yaw = math.atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z))
-            numbers = [t.x, t.y, yaw]
-        else:
-            numbers = [t.x, t.y, t.z, q.x, q.y, q.z, q.w]
-        for variable, number in zip(joint.variables, numbers, strict=True):
-            values[self.model.variable_index(variable)] = number
+        values[self.model.indices(joint.variables)] = _numbers_of(found, joint.type)
 
     def random_positions(self, group: Any, values: np.ndarray) -> np.ndarray:
         """Return a state with random positions of a group, within its limits."""
@@ -178,14 +172,17 @@ class SharedRobot:
         return [float(number) for number in self.kinematics.link_poses(values)[index]]
 
     def message(self, values: np.ndarray) -> Any:
-        """Return a state as moveit_msgs/RobotState."""
+        """Return a state as moveit_msgs/RobotState, without a stamp, as MoveIt does."""
         state = RobotState()
-        state.joint_state.header.frame_id = self.model.model_frame
-        state.joint_state.header.stamp = rospy.get_rostime()
+        state.joint_state.header.frame_id = state.multi_dof_joint_state.header.frame_id = self.model.model_frame
         for joint in self.model.joints:
-            if len(joint.variables) == 1:
+            numbers = self.select(values, joint.variables)
+            if len(numbers) == 1:
                 state.joint_state.name.append(joint.variables[0])
-                state.joint_state.position.append(float(values[self.model.variable_index(joint.variables[0])]))
+                state.joint_state.position.append(numbers[0])
+            elif numbers:
+                state.multi_dof_joint_state.joint_names.append(joint.name)
+                state.multi_dof_joint_state.transforms.append(_transform(numbers))
         return state
 
     def with_message(self, values: np.ndarray, state: Any) -> np.ndarray:
@@ -194,7 +191,37 @@ class SharedRobot:
         for name, position in zip(state.joint_state.name, state.joint_state.position, strict=False):
             if name in self.model.variables:
                 values[self.model.variable_index(name)] = position
+        several = state.multi_dof_joint_state
+        for name, transform in zip(several.joint_names, several.transforms, strict=False):
+            if self.model.has_joint(name):
+                joint = self.model.joint(name)
+                values[self.model.indices(joint.variables)] = _numbers_of(transform, joint.type)
         return self.model.with_mimics(values)
+
+
+def _find_parameter(name: str) -> str | None:
+    """Return the full name of a parameter in the program's namespaces; None if it is not set."""
+    key = rospy.search_param(name)  # finds the first namespace of the name alone
+    return key if key is not None and rospy.has_param(key) else None
+
+
+def _numbers_of(transform: Any, kind: str) -> list[float]:
+    """Return the positions of a planar or floating joint of a geometry_msgs/Transform."""
+    t, q = transform.translation, transform.rotation
+    if kind == "planar":
+        return [t.x, t.y, math.atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z))]
+    return [t.x, t.y, t.z, q.x, q.y, q.z, q.w]
+
+
+def _transform(numbers: Sequence[float]) -> Any:
+    """Return the geometry_msgs/Transform of a planar (3) or floating joint (7)."""
+    if len(numbers) == 3:
+        x, y, yaw = numbers
+        numbers = (x, y, 0.0, *quaternion_from_rpy(0.0, 0.0, yaw))
+    transform = Transform()
+    t, q = transform.translation, transform.rotation
+    t.x, t.y, t.z, q.x, q.y, q.z, q.w = numbers
+    return transform
 
 
 def pose_from_list(numbers: Sequence[float]) -> Any:
