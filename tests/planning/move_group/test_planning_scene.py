@@ -2,6 +2,7 @@
 
 from typing import Any
 
+import pytest
 from tests.planning.move_group.arm_graph import add, box, start_arm
 
 _GET = "moveit_msgs/GetPlanningScene"
@@ -99,3 +100,34 @@ def test_the_offset_of_a_plane_goes_along_its_normal(graph: Any) -> None:
     assert below.valid
     assert not above.valid
     assert "floor" in {above.contacts[0].contact_body_1, above.contacts[0].contact_body_2}
+
+
+def test_constraints_of_sight_are_checked(graph: Any) -> None:
+    start_arm(graph)
+    kind = "moveit_msgs/GetStateValidity"
+    sight = {
+        "target_radius": 0.05,
+        "target_pose": {"header": {"frame_id": "tool0"}, "pose": {"position": {"z": 0.5}, "orientation": {"x": 1.0}}},
+        "sensor_pose": {
+            "header": {"frame_id": "tool0"},
+            "pose": {"position": {"z": 0.15}, "orientation": {"w": 1.0}},
+        },
+        "cone_sides": 6,
+        "max_range_angle": 0.3,
+        "weight": 1.0,
+    }
+
+    def ask(**changes: Any) -> Any:
+        constraints = {"visibility_constraints": [{**sight, **changes}]}
+        answer = graph.call(
+            "/check_state_validity",
+            kind,
+            robot_state={"is_diff": True},
+            group_name="arm",
+            constraints=constraints,
+        )
+        return answer.valid, [one.result for one in answer.constraint_result]
+
+    behind = {"header": {"frame_id": "tool0"}, "pose": {"position": {"z": -0.5}, "orientation": {"w": 1.0}}}
+    assert ask() == (True, [True])
+    assert ask(target_pose=behind) == (False, [False])

@@ -4,12 +4,14 @@ from collections.abc import Callable
 from itertools import pairwise
 from typing import Any
 
+import msgspec
 import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
 from tests.planning.scenes import ready, scene_with, seven_axis, thing
 
+from trundle.base.diagnostics import UsageError
 from trundle.planning.planners import (
     Constraints,
     ErrorCode,
@@ -21,6 +23,7 @@ from trundle.planning.planners import (
     PositionConstraint,
     StartStateFixes,
     VisibilityConstraint,
+    is_visible,
     joint_goal,
     ompl_settings,
     plan,
@@ -236,6 +239,10 @@ def test_visibility_as_a_goal() -> None:
     sight = np.subtract((0.9, 0.0, 0.2), pose.position)
     axis = pose.transform_vector((0.0, 0.0, 1.0))
     assert np.arccos(np.dot(sight, axis) / np.linalg.norm(sight)) <= 0.5 + 1e-6
+    assert is_visible(scene, look, result.waypoints[-1])
+    assert not is_visible(scene, look, scene.model.state_of({"joint_6": 0.5}, base=result.waypoints[-1]))
+    with pytest.raises(UsageError, match="no frame 'nowhere'"):
+        is_visible(scene, msgspec.structs.replace(look, sensor_frame="nowhere"), result.waypoints[-1])
 
 
 def test_what_is_carried_does_not_collide_either() -> None:

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from tests.planning.arms import changed_arm
 from tests.planning.scenes import ready, scene_with, seven_axis, thing
 
 from trundle.base.diagnostics import UsageError
@@ -56,6 +57,23 @@ def test_a_shape_at_the_flange_touches_it(geometry: Box) -> None:
     assert scene.is_free()
     scene.remove("thing")
     assert dict(scene.objects) == {}
+
+
+def test_links_whose_default_collisions_are_disabled_touch_no_object() -> None:
+    """Panda's coarse links: checked against those of <enable_collisions> alone."""
+    srdf = '<disable_default_collisions link="base_link"/><enable_collisions link1="base_link" link2="link_7"/>'
+    scene = PlanningScene(changed_arm("seven_axis", srdf=srdf))
+    matrix = scene.allowed_collisions
+
+    scene.add(thing("post", Cylinder(0.02, 0.1)))
+    is_free_before = "base_link" not in {body for one in scene.check(ready()) for body in (one.body_1, one.body_2)}
+    matrix.set_default("base_link", False)
+    scene.allowed_collisions = matrix
+
+    assert matrix.allows("base_link", "link_1")
+    assert not matrix.allows("base_link", "link_7")
+    assert is_free_before
+    assert "base_link" in {body for one in scene.check(ready()) for body in (one.body_1, one.body_2)}
 
 
 def test_a_plane_touches_what_it_cuts() -> None:

@@ -12,6 +12,7 @@ from trundle.planning.planners import (
     OrientationConstraint,
     PositionConstraint,
     VisibilityConstraint,
+    is_visible,
 )
 from trundle.planning.planning_scene import PlacedShape
 from trundle.robots.model import Box, Cone, Cylinder, Sphere
@@ -21,6 +22,7 @@ from .scene import Frames, mesh_of, pose_of, primitive_of
 
 if TYPE_CHECKING:
     from trundle.planning.kinematics import Kinematics
+    from trundle.planning.planning_scene import PlanningScene
     from trundle.planning.robot_model import RobotModel
     from trundle.ros import Message
 
@@ -121,8 +123,10 @@ def _visibility(message: "Message", model: "RobotModel", frames: Frames) -> Visi
     )
 
 
-def constraint_check(kinematics: "Kinematics", message: "Message", frames: Frames) -> Callable[[np.ndarray], bool]:
-    """Return a function that is True for states that satisfy moveit_msgs/Constraints.
+def constraint_check(
+    kinematics: "Kinematics", message: "Message", frames: Frames, scene: "PlanningScene | None"
+) -> Callable[[np.ndarray], bool]:
+    """Return a function that is True for states that satisfy moveit_msgs/Constraints; `scene` is asked for sight.
 
     Raises:
         ValueError: numbers that are not finite.
@@ -131,22 +135,24 @@ def constraint_check(kinematics: "Kinematics", message: "Message", frames: Frame
     constraints = constraints_of(message, kinematics.model, frames)
     if constraints.is_empty:
         return lambda _: True
-    return lambda positions: all(is_met for is_met, _ in _results(kinematics, constraints, positions))
+    return lambda positions: all(is_met for is_met, _ in _results(kinematics, constraints, positions, scene))
 
 
 def evaluate(
-    kinematics: "Kinematics", message: "Message", frames: Frames, positions: np.ndarray
+    kinematics: "Kinematics", message: "Message", frames: Frames, positions: np.ndarray, scene: "PlanningScene"
 ) -> list[tuple[bool, float]]:
-    """Return for each joint, position and orientation constraint whether a state satisfies it, and how far it is off.
+    """Return for each constraint whether a state satisfies it, and how far it is off; 0 for constraints of sight.
 
     Raises:
         ValueError: numbers that are not finite.
         FrameError: a frame is unknown.
     """
-    return _results(kinematics, constraints_of(message, kinematics.model, frames), positions)
+    return _results(kinematics, constraints_of(message, kinematics.model, frames), positions, scene)
 
 
-def _results(kinematics: "Kinematics", constraints: Constraints, positions: np.ndarray) -> list[tuple[bool, float]]:
+def _results(
+    kinematics: "Kinematics", constraints: Constraints, positions: np.ndarray, scene: "PlanningScene | None"
+) -> list[tuple[bool, float]]:
     model = kinematics.model
     results: list[tuple[bool, float]] = []
     for joint in constraints.joints:
@@ -167,6 +173,8 @@ def _results(kinematics: "Kinematics", constraints: Constraints, positions: np.n
         angles = _rotation_vector(error) if turn.parameterization == "rotation_vector" else rpy_from_quaternion(error)
         is_met = all(abs(a) <= t + _MARGIN for a, t in zip(angles, turn.tolerances, strict=True))
         results.append((is_met, math.sqrt(sum(a * a for a in angles))))
+    if scene is not None:
+        results += [(is_visible(scene, sight, positions), 0.0) for sight in constraints.visibilities]
     return results
 
 

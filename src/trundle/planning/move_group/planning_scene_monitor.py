@@ -203,7 +203,7 @@ def _initial(description: RobotDescription) -> SceneContents:
     """Return the empty scene: collisions as in the SRDF, paddings and operations as in NAME_planning."""
     model = description.model
     colliding = [link.name for link in model.urdf.links if link.collisions]
-    allowed = AllowedCollisionMatrix(model.disabled_pairs)
+    allowed = AllowedCollisionMatrix.of_model(model)
     for index, name in enumerate(colliding):  # each link has a row, which programs look for
         for other in colliding[:index]:
             if allowed.entry(name, other) is None:

@@ -27,3 +27,4 @@ from .requests import (
     WorkspaceBounds as WorkspaceBounds,
     ompl_settings as ompl_settings,
 )
+from .sight import is_visible as is_visible

@@ -2,6 +2,8 @@
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
+from trundle.planning.robot_model import RobotModel
+
 
 class AllowedCollisionMatrix:
     """Which pairs of links and objects may touch.
@@ -12,10 +14,19 @@ class AllowedCollisionMatrix:
 
     def __init__(self, pairs: Iterable[frozenset[str]] = ()) -> None:
         """Allow pairs of names."""
-        self._entries: dict[frozenset[str], bool] = {}
+        self._entries: dict[frozenset[str], bool] = dict.fromkeys(pairs, True)
         self._defaults: dict[str, bool] = {}
-        for pair in pairs:
-            self._entries[pair] = True
+
+    @classmethod
+    def of_model(cls, model: RobotModel) -> "AllowedCollisionMatrix":
+        """Return the matrix of an SRDF; its <disable_default_collisions> are for objects, too."""
+        matrix = cls(model.disabled_pairs)
+        for name in model.unchecked_links:
+            matrix.set_default(name, True)
+            for other in model.links:
+                if other != name and frozenset((name, other)) not in model.disabled_pairs:
+                    matrix.set_entry(name, other, False)
+        return matrix
 
     @classmethod
     def of_matrix(

@@ -54,7 +54,7 @@ class PlanningScene:
             report: receives meshes that are left out.
         """
         geometry = link_geometry(model.urdf.links, packages, report or Diagnostics())
-        self._set_up(Kinematics(model), geometry, AllowedCollisionMatrix(model.disabled_pairs))
+        self._set_up(Kinematics(model), geometry, AllowedCollisionMatrix.of_model(model))
         pair = ShapePair()
         self._pair = pair
         self._world = _planning.CollisionWorld(self._kinematics.tree, *pair.addresses)

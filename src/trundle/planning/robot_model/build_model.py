@@ -56,6 +56,7 @@ def robot_model(
         end_effectors=end_effectors,
         disabled=semantic.disabled,
         disabled_pairs=_disabled_pairs(semantic, links, report),
+        unchecked_links=frozenset(semantic.unchecked) & frozenset(links),
     )
 
 

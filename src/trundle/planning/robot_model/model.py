@@ -32,6 +32,7 @@ class RobotModel:
         end_effectors: Mapping[str, EndEffector],
         disabled: Iterable[DisabledPair] = (),
         disabled_pairs: frozenset[frozenset[str]] = frozenset(),
+        unchecked_links: frozenset[str] = frozenset(),
     ) -> None:
         """Take the parts of a model; `robot_model` makes them of files."""
         self.urdf = urdf
@@ -50,6 +51,8 @@ class RobotModel:
         """<disable_collisions>, with reasons."""
         self.disabled_pairs = disabled_pairs
         """Links that are not checked against each other."""
+        self.unchecked_links = unchecked_links
+        """Links that are checked only against those of <enable_collisions>, and against no object."""
         self.variables = tuple(name for joint in self.joints for name in joint.variables)
         """Names of the elements of a state, mimic joints' too."""
         self._index = {name: index for index, name in enumerate(self.variables)}

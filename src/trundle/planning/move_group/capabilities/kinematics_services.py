@@ -55,7 +55,9 @@ async def _solve(context: "Context", request: "Message") -> tuple[ErrorCode, np.
         start = await context.monitor.start_positions(request.robot_state)
         frames = monitor.frames(start)
         poses = [frames.find(str(one.header.frame_id)) @ pose_of(one.pose) for one in targets]
-        is_satisfied = constraint_check(monitor.kinematics, request.constraints, frames)
+        needs_scene = request.avoid_collisions or len(request.constraints.visibility_constraints)
+        scene = context.pipelines.scene(monitor.contents, start) if needs_scene else None
+        is_satisfied = constraint_check(monitor.kinematics, request.constraints, frames, scene)
     except ValueError as error:
         context.node.log.error(f"compute_ik: {error}")
         return ErrorCode.INVALID_ROBOT_STATE, None
@@ -67,10 +69,10 @@ async def _solve(context: "Context", request: "Message") -> tuple[ErrorCode, np.
         if name is not None and not model.has_link(name):
             return ErrorCode.INVALID_LINK_NAME, None
     timeout_s = to_nsec(request.timeout) / NS_PER_S or context.pipelines.ik_timeout_s(group.name) or _TIMEOUT_S
-    scene = context.pipelines.scene(monitor.contents, start) if request.avoid_collisions else None
+    checked = scene if request.avoid_collisions else None
 
     def is_valid(positions: np.ndarray) -> bool:
-        return (scene is None or scene.is_free(positions, group=group.name)) and is_satisfied(positions)
+        return (checked is None or checked.is_free(positions, group=group.name)) and is_satisfied(positions)
 
     found = await asyncio.to_thread(
         context.pipelines.solve, group.name, list(zip(wanted, poses, strict=False)), start, timeout_s, is_valid

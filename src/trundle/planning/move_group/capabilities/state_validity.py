@@ -24,7 +24,8 @@ def offer_state_validity(context: "Context") -> None:
         try:
             positions = await context.monitor.start_positions(request.robot_state)
             frames = context.monitor.frames(positions)
-            results = evaluate(context.monitor.kinematics, request.constraints, frames, positions)
+            scene = context.pipelines.scene(context.monitor.contents, positions)
+            results = evaluate(context.monitor.kinematics, request.constraints, frames, positions, scene)
         except (ValueError, TrundleError) as error:
             context.node.log.error(f"check_state_validity: {error}")
             return {"valid": False}
@@ -32,7 +33,6 @@ def offer_state_validity(context: "Context") -> None:
         if group is not None and group not in context.monitor.model.groups:
             context.node.log.error(f"check_state_validity: there is no group '{group}'")
             return {"valid": False}
-        scene = context.pipelines.scene(context.monitor.contents, positions)
         contacts = await asyncio.to_thread(scene.check, positions, group=group, max_contacts=_MAX_CONTACTS)
         frame = context.monitor.model.model_frame
         return {
