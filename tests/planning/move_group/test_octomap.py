@@ -4,8 +4,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.planning.move_group.arm_graph import start_arm
+from tests.planning.arms import arm
+from tests.planning.move_group.arm_graph import ARM, start_arm
 
+from trundle.gazebo.nodes.pointcloud_to_laserscan import read_points
+from trundle.planning.kinematics import Kinematics
 from trundle.planning.move_group.occupancy import OccupancyGrid
 from trundle.planning.move_group.scene import OctomapError, read_octomap
 from trundle.ros import Messages
@@ -76,12 +79,15 @@ def test_a_cloud_of_a_sensor_is_in_the_way(graph: Any) -> None:
         "point_cloud_topic": "/cloud",
         "max_range": 5.0,
         "padding_offset": 0.05,
+        "filtered_cloud_topic": "filtered_cloud",
     }
+    filtered = graph.listen("/move_group/filtered_cloud", "sensor_msgs/PointCloud2")
     start_arm(graph, sensors=[sensor], octomap_resolution=0.05)
     y, z = np.meshgrid(np.arange(-0.4, 0.4, 0.03), np.arange(0.0, 1.5, 0.03))
     wall = np.stack([np.full(y.size, 0.75), y.ravel(), z.ravel()], axis=1)
     own = np.array([[0.05, 0.0, 0.6], [0.0, 0.0, 0.1]])
-    points = np.vstack([wall, own]).astype(np.float32)
+    far = np.array([[9.0, 0.0, 0.5]])
+    points = np.vstack([wall, own, far]).astype(np.float32)
     fields = [{"name": name, "offset": 4 * index, "datatype": 7, "count": 1} for index, name in enumerate("xyz")]
     cloud = {
         "header": {"frame_id": "base_link"},
@@ -94,6 +100,7 @@ def test_a_cloud_of_a_sensor_is_in_the_way(graph: Any) -> None:
         "is_dense": True,
     }
     clouds = graph.advertise("/cloud", "sensor_msgs/PointCloud2")
+    graph.until(lambda: graph.connected("/move_group/filtered_cloud"))
     clouds.publish(cloud)
     get = "moveit_msgs/GetPlanningScene"
     scenes: list[Any] = []
@@ -103,16 +110,56 @@ def test_a_cloud_of_a_sensor_is_in_the_way(graph: Any) -> None:
         return len(scenes[-1].world.octomap.octomap.data) > 0
 
     graph.until(is_seen)
-    joints = [f"joint_{number}" for number in range(1, 7)]
-    kind = "moveit_msgs/GetStateValidity"
-
-    def valid(positions: list[float]) -> Any:
-        state = {"joint_state": {"name": joints, "position": positions}, "is_diff": True}
-        return graph.call("/check_state_validity", kind, robot_state=state, group_name="arm")
-
-    assert valid([0.0, 0.0, 0.0, 0.0, 0.8, 0.0]).valid
-    stretched = valid([0.0, 0.7, -0.7, 0.0, 0.0, 0.0])
+    assert _validity(graph, [0.0, 0.0, 0.0, 0.0, 0.8, 0.0]).valid
+    stretched = _validity(graph, [0.0, 0.7, -0.7, 0.0, 0.0, 0.0])
     assert not stretched.valid
     assert "<octomap>" in {stretched.contacts[0].contact_body_1, stretched.contacts[0].contact_body_2}
+    graph.until(lambda: filtered)
+    np.testing.assert_array_equal(read_points(filtered[0]), wall.astype(np.float32))
+    assert filtered[0].header.frame_id == "base_link"
     graph.call("/clear_octomap", "std_srvs/Empty")
-    assert valid([0.0, 0.7, -0.7, 0.0, 0.0, 0.0]).valid
+    assert _validity(graph, [0.0, 0.7, -0.7, 0.0, 0.0, 0.0]).valid
+
+
+def _validity(graph: Any, positions: list[float]) -> Any:
+    state = {"joint_state": {"name": ARM, "position": positions}, "is_diff": True}
+    return graph.call("/check_state_validity", "moveit_msgs/GetStateValidity", robot_state=state, group_name="arm")
+
+
+def test_what_a_depth_camera_sees_is_in_the_way(graph: Any) -> None:
+    """A camera in the base looks up, its z axis, at a ceiling that the stretched arm touches; nearer is the arm."""
+    sensor = {
+        "sensor_plugin": "occupancy_map_monitor/DepthImageOctomapUpdater",
+        "image_topic": "/camera/depth",
+        "far_clipping_plane_distance": 5.0,
+    }
+    start_arm(graph, sensors=[sensor], octomap_resolution=0.05)
+    model = arm("six_axis")
+    up = Kinematics(model).link_pose(model.default_positions(), "tool0").position[2]
+    depths = np.full((48, 64), up - 0.02, dtype=np.float32)
+    depths[20:28, 28:36] = 0.5
+    header = {"frame_id": "base_link"}
+    image = {
+        "header": header,
+        "height": 48,
+        "width": 64,
+        "encoding": "32FC1",
+        "step": 256,
+        "data": np.frombuffer(depths.tobytes(), np.uint8),
+    }
+    cameras = graph.advertise("/camera/camera_info", "sensor_msgs/CameraInfo", latch=True)
+    images = graph.advertise("/camera/depth", "sensor_msgs/Image", latch=True)
+    cameras.publish({"header": header, "height": 48, "width": 64, "K": [40.0, 0, 32, 0, 40, 24, 0, 0, 1]})
+
+    def is_seen() -> bool:
+        images.publish(image)
+        components = {"components": 32}
+        scene = graph.call("/get_planning_scene", "moveit_msgs/GetPlanningScene", components=components).scene
+        return len(scene.world.octomap.octomap.data) > 0
+
+    graph.until(is_seen)
+    stretched, bent = _validity(graph, [0.0] * 6), _validity(graph, [0.0, 0.3, 0.9, 0.0, 0.8, 0.0])
+
+    assert not stretched.valid
+    assert "<octomap>" in {stretched.contacts[0].contact_body_1, stretched.contacts[0].contact_body_2}
+    assert bent.valid

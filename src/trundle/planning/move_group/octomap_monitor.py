@@ -47,7 +47,6 @@ class OctomapMonitor:
         self._frame = root.text("octomap_frame", monitor.model.model_frame)
         self._grid = OccupancyGrid(resolution)
         self._is_busy = False
-        self._cloud_filter = node.advertise("~filtered_cloud", "sensor_msgs/PointCloud2", queue_size=1)
         for entry in sensors:
             plugin = entry.text("sensor_plugin", "").rpartition("/")[2]
             if plugin in _CLOUDS:
@@ -60,19 +59,22 @@ class OctomapMonitor:
 
     async def add(
         self, points: NDArray[np.float64], frame: str, stamp_ns: int, *, max_range: float, filter: RobotFilter
-    ) -> None:
-        """Add points (n, 3) [m] in a sensor's frame."""
+    ) -> NDArray[np.float64] | None:
+        """Add points (n, 3) [m] in a sensor's frame; return those that are in range and not the robot's.
+
+        None: nothing was added, as others are being added, or the frame is unknown.
+        """
         if self._is_busy:
-            return
+            return None
         self._is_busy = True
         try:
-            await self._add(points, frame, stamp_ns, max_range, filter)
+            return await self._add(points, frame, stamp_ns, max_range, filter)
         finally:
             self._is_busy = False
 
     async def _add(
         self, points: NDArray[np.float64], frame: str, stamp_ns: int, max_range: float, filter: RobotFilter
-    ) -> None:
+    ) -> NDArray[np.float64] | None:
         monitor = self._monitor
         root = monitor.model.model_frame
         frames = monitor.frames()
@@ -83,15 +85,16 @@ class OctomapMonitor:
                 model_from_sensor = frames.find(frame)
             except FrameError as error:
                 self._node.log.warn(f"Transform error of sensor data: {error}; quitting callback")
-                return
+                return None
         poses = {name: frames.link(name) for name in monitor.model.links}
         contents = monitor.contents
-        message = await asyncio.to_thread(
+        message, kept = await asyncio.to_thread(
             self._update, points, model_from_sensor, max_range, filter, poses, list(contents.carried.values())
         )
         changed = monitor.contents.copy()
         changed.octomap = self._node.new("octomap_msgs/OctomapWithPose", message)
         monitor.replace(changed)
+        return kept
 
     def _update(
         self,
@@ -101,23 +104,25 @@ class OctomapMonitor:
         filter: RobotFilter,
         poses: dict[str, Pose],
         carried: Sequence[Any],
-    ) -> dict[str, Any]:
+    ) -> tuple[dict[str, Any], NDArray[np.float64]]:
         if len(points) > _MAX_POINTS:
             points = points[:: math.ceil(len(points) / _MAX_POINTS)]
         distances = np.linalg.norm(points, axis=1)
         is_near = np.isfinite(distances) & (distances > 0.0) & (distances <= max_range)
-        hits = model_from_sensor_points(points[is_near], model_from_sensor)
+        near = points[is_near]
+        hits = model_from_sensor_points(near, model_from_sensor)
         is_own = filter.mask(hits, poses, carried)
         self._grid.insert(np.array(model_from_sensor.position), hits[~is_own])
         self._grid.clear(hits[is_own])
         data = self._grid.binary()
         root = self._monitor.model.model_frame
         octomap = {"id": "OcTree", "binary": True, "resolution": self._grid.resolution, "data": data}
-        return {
+        message = {
             "header": {"frame_id": root},
             "origin": pose_fields(Pose()),
             "octomap": {"header": {"frame_id": root}, **octomap},
         }
+        return message, near[~is_own]
 
 
 def model_from_sensor_points(points: NDArray[np.float64], model_from_sensor: Pose) -> NDArray[np.float64]:
@@ -157,6 +162,8 @@ class _CloudUpdater:
         )
         if not self._topic:
             raise ParamError(f"{entry.namespace}/point_cloud_topic is not set")
+        shown = entry.text("filtered_cloud_topic", "")
+        self._filtered = node.advertise(f"~{shown}", "sensor_msgs/PointCloud2", queue_size=10) if shown else None
         node.subscribe(self._topic, "sensor_msgs/PointCloud2", self._receive, queue_size=5, on_loop=True)
         node.log.info(f"Listening to '{node.resolve(self._topic)}' using message filter")
 
@@ -168,13 +175,16 @@ class _CloudUpdater:
         except ValueError as error:
             self._node.log.error(f"{self._topic}: {error}")
             return
-        await self._monitor.add(
+        kept = await self._monitor.add(
             points[:: self._step],
             str(cloud.header.frame_id),
             to_nsec(cloud.header.stamp),
             max_range=self._max_range,
             filter=self._filter,
         )
+        if kept is not None and self._filtered is not None and self._filtered.has_subscribers:
+            header = {"frame_id": cloud.header.frame_id, "stamp": to_nsec(cloud.header.stamp)}
+            self._filtered.publish({"header": header, **_cloud_fields(kept)})
 
 
 class _DepthUpdater:
@@ -220,6 +230,13 @@ class _DepthUpdater:
             max_range=math.inf,
             filter=self._filter,
         )
+
+
+def _cloud_fields(points: NDArray[np.float64]) -> dict[str, Any]:
+    """Return the fields of a sensor_msgs/PointCloud2 of points (n, 3)."""
+    fields = [{"name": name, "offset": 4 * index, "datatype": 7, "count": 1} for index, name in enumerate("xyz")]
+    size = {"height": 1, "width": len(points), "point_step": 12, "row_step": 12 * len(points)}
+    return {**size, "fields": fields, "is_dense": True, "data": np.frombuffer(points.astype("<f4").tobytes(), np.uint8)}
 
 
 def _points_of(depths: NDArray[np.float64], camera: "Message", skip: tuple[int, int]) -> NDArray[np.float64]:
