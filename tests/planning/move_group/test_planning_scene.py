@@ -2,7 +2,6 @@
 
 from typing import Any
 
-import pytest
 from tests.planning.move_group.arm_graph import add, box, start_arm
 
 _GET = "moveit_msgs/GetPlanningScene"
