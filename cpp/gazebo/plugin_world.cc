@@ -61,8 +61,14 @@ void PluginWorld::bind(mjModel* m, mjData* d, std::shared_ptr<MotorBank> bank,
     const auto [at, is_new] = link_numbers_.try_emplace(name, static_cast<int>(links_.size()));
     if (is_new) links_.emplace_back();
     links_[static_cast<std::size_t>(at->second)].body = body;
-    links_[static_cast<std::size_t>(at->second)].name = name;
   }
+  for (Link& link : links_) link.collides |= link.body < 0;
+  geom_links_.clear();
+  for (const std::string& collision : collisions_) {
+    const auto found = link_numbers_.find(collision.substr(0, collision.rfind("::")));
+    geom_links_.push_back(found == link_numbers_.end() ? -1 : found->second);
+  }
+  apply_collides();
   for (const auto& [name, axes] : joints) {
     const auto [at, is_new] = joint_numbers_.try_emplace(name, static_cast<int>(joints_.size()));
     if (is_new) joints_.emplace_back();
@@ -72,8 +78,8 @@ void PluginWorld::bind(mjModel* m, mjData* d, std::shared_ptr<MotorBank> bank,
     for (std::size_t i = 0; i < axes.size(); ++i) joint.axes[i].bound = axes[i];
   }
   qvel_.resize(static_cast<std::size_t>(m->nv));
-  copied_links_.assign(links_.size(), {});
-  copied_joints_.assign(joints_.size(), {});
+  copied_links_.resize(links_.size());
+  copied_joints_.resize(joints_.size());
   has_poses_ = has_twists_ = false;
 }
 
@@ -116,7 +122,7 @@ void PluginWorld::end() {
 }
 
 void PluginWorld::clear_commands() {
-  restore_margins();
+  restore_collides();
   for (Link& link : links_) link.pending = {}, link.is_applied = false;
   for (Joint& joint : joints_)
     for (Axis& axis : joint.axes) axis.mode = Mode::kNone, axis.effort = axis.last_effort = 0.0;
@@ -270,7 +276,12 @@ bool PluginWorld::write_link(Link& link, const Write& write) {
     for (std::size_t i = 0; i < 6; ++i) link.pending[i] += write.values[i];
     return true;
   }
-  if (write.command == TRUNDLE_SET_COLLIDE) return set_collides(link, write.values[0] != 0.0);
+  if (write.command == TRUNDLE_SET_COLLIDE) {
+    link.collides = write.values[0] != 0.0;
+    apply_collides();
+    if (m_->body_dofnum[link.body] > 0) moved(m_->body_dofadr[link.body]);
+    return true;
+  }
   const int joint = free_joint(link.body);
   if (joint < 0) return false;
   double *q = d_->qpos + m_->jnt_qposadr[joint], *v = d_->qvel + m_->jnt_dofadr[joint];
@@ -293,23 +304,22 @@ bool PluginWorld::write_link(Link& link, const Write& write) {
 }
 
 // Pairs of geoms that may touch are listed in the model; with a margin that no distance reaches they do not.
-bool PluginWorld::set_collides(Link& link, bool collides) {
-  const std::string prefix = link.name + "::";
-  const auto is_part = [&](int geom) {
-    return geom >= 0 && collisions_[static_cast<std::size_t>(geom)].compare(0, prefix.size(), prefix) == 0;
+void PluginWorld::apply_collides() {
+  const auto collides = [this](int geom) {
+    const int number = geom < 0 ? -1 : geom_links_[static_cast<std::size_t>(geom)];
+    return number < 0 || links_[static_cast<std::size_t>(number)].collides;
   };
-  for (int pair = 0; pair < m_->npair; ++pair) {
-    if (!is_part(m_->pair_geom1[pair]) && !is_part(m_->pair_geom2[pair])) continue;
-    const auto [at, is_new] = pair_margins_.try_emplace(pair, m_->pair_margin[pair]);
-    m_->pair_margin[pair] = collides ? at->second : kUnreachable;
+  for (int pair = 0; m_ && pair < m_->npair; ++pair) {
+    const bool touches = collides(m_->pair_geom1[pair]) && collides(m_->pair_geom2[pair]);
+    if (touches && !pair_margins_.contains(pair)) continue;
+    const mjtNum margin = pair_margins_.try_emplace(pair, m_->pair_margin[pair]).first->second;
+    m_->pair_margin[pair] = touches ? margin : kUnreachable;
   }
-  if (m_->body_dofnum[link.body] > 0) moved(m_->body_dofadr[link.body]);
-  return true;
 }
 
-void PluginWorld::restore_margins() {
-  for (const auto& [pair, margin] : pair_margins_) m_->pair_margin[pair] = margin;
-  pair_margins_.clear();
+void PluginWorld::restore_collides() {
+  for (Link& link : links_) link.collides = true;
+  apply_collides();
 }
 
 bool PluginWorld::write_axis(Axis& axis, const Write& write) {

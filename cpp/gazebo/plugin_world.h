@@ -87,10 +87,9 @@ class PluginWorld {
   using Wrench = std::array<double, 6>;
 
   struct Link {
-    std::string name;
     int body = -1;
     Wrench pending{}, base{}, written{};
-    bool is_applied = false;
+    bool is_applied = false, collides = true;
   };
   enum class Mode { kNone, kDrive, kSpeed };
   struct Axis {
@@ -115,8 +114,8 @@ class PluginWorld {
   int read_now(int value, int number, int axis, double* out);
   bool write_now(const Write& write);
   bool write_link(Link& link, const Write& write);
-  bool set_collides(Link& link, bool collides);
-  void restore_margins();
+  void apply_collides();
+  void restore_collides();
   bool write_axis(Axis& axis, const Write& write);
   void synchronize(int dof);
   void moved(int dof);
@@ -134,6 +133,7 @@ class PluginWorld {
   std::vector<Link> links_;
   std::vector<Joint> joints_;
   std::vector<std::string> collisions_;           // `model::link::collision` of each geom
+  std::vector<int> geom_links_;                   // number of each geom's link, -1: none
   std::unordered_map<int, double> pair_margins_;  // of pairs that do not touch, as they were
   std::vector<int> touched_links_;
   std::vector<std::pair<int, int>> touched_axes_;

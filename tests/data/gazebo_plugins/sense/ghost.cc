@@ -1,9 +1,13 @@
-// Lets a box fall through the ground after 0.2 s.
+// Lets a box fall through the ground after 0.2 s, when another model comes, too.
 #include <gazebo/common/common.hh>
 #include <gazebo/gazebo.hh>
 #include <gazebo/physics/physics.hh>
 
 namespace gazebo {
+
+const char* const kPost =
+    "<sdf version='1.6'><model name='post'><static>true</static><pose>0 -9 0 0 0 0</pose><link name='l'>"
+    "<collision name='c'><geometry><sphere><radius>0.1</radius></sphere></geometry></collision></link></model></sdf>";
 
 class Ghost : public ModelPlugin {
  public:
@@ -12,6 +16,7 @@ class Ghost : public ModelPlugin {
       if (info.simTime < common::Time(0.2) || is_done_) return;
       is_done_ = true;
       model->GetLink()->SetCollideMode("none");
+      model->GetWorld()->InsertModelString(kPost);
     });
   }
 
