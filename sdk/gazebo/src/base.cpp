@@ -54,6 +54,40 @@ CollisionPtr Entity::GetChildCollision(const std::string& name) {
 
 LinkPtr Entity::GetChildLink(const std::string& name) { return boost::dynamic_pointer_cast<Link>(GetByName(name)); }
 
+namespace {
+
+// Half of a shape's extent along its axes.
+ignition::math::Vector3d half_extent(const ShapePtr& shape) {
+  if (const auto box = boost::dynamic_pointer_cast<BoxShape>(shape)) return box->size * 0.5;
+  if (const auto sphere = boost::dynamic_pointer_cast<SphereShape>(shape))
+    return {sphere->radius, sphere->radius, sphere->radius};
+  if (const auto cylinder = boost::dynamic_pointer_cast<CylinderShape>(shape))
+    return {cylinder->radius, cylinder->radius, 0.5 * cylinder->length};
+  return {};
+}
+
+// Add an entity's collisions to a box.
+void add_box(const Base& base, ignition::math::Box& box) {
+  if (const auto collision = dynamic_cast<const Collision*>(&base)) {
+    const ignition::math::Pose3d pose = collision->WorldPose();
+    const ignition::math::Matrix3d axes(pose.Rot());
+    const ignition::math::Vector3d half = half_extent(collision->GetShape());
+    ignition::math::Vector3d reach;
+    for (unsigned int row = 0; row < 3; ++row)
+      for (unsigned int column = 0; column < 3; ++column) reach[row] += std::abs(axes(row, column)) * half[column];
+    box.Merge(ignition::math::Box(pose.Pos() - reach, pose.Pos() + reach));
+  }
+  for (unsigned int i = 0; i < base.GetChildCount(); ++i) add_box(*base.GetChild(i), box);
+}
+
+}  // namespace
+
+ignition::math::Box Entity::BoundingBox() const {
+  ignition::math::Box box;
+  add_box(*this, box);
+  return box;
+}
+
 ignition::math::Pose3d Entity::RelativePose() const { return WorldPose(); }
 void Entity::SetRelativePose(const ignition::math::Pose3d& pose, bool notify, bool publish) {
   const EntityPtr above = boost::dynamic_pointer_cast<Entity>(parent_);

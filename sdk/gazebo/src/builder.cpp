@@ -1,5 +1,6 @@
 #include "builder.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <vector>
 
@@ -97,6 +98,10 @@ ModelPtr Builder::AddModel(const WorldPtr& world, const std::string& name, const
 void Builder::RemoveModel(const WorldPtr& world, const std::string& name) {
   for (std::size_t i = 0; i < world->models_.size(); ++i)
     if (world->models_[i]->name_ == name) {
+      auto& animated = world->animated_;
+      animated.erase(std::remove_if(animated.begin(), animated.end(),
+                                    [&](const EntityPtr& e) { return e->GetParentModel() == world->models_[i]; }),
+                     animated.end());
       world->models_.erase(world->models_.begin() + static_cast<std::ptrdiff_t>(i));
       return;
     }

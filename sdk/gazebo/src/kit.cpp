@@ -14,6 +14,7 @@
 #include <gazebo/sensors/sensors.hh>
 
 #include "builder.h"
+#include "world_topics.h"
 
 namespace gazebo {
 
@@ -30,6 +31,7 @@ struct LoadedPlugin {
 struct OpenWorld {
   TrundleGazeboHost host;
   physics::WorldPtr world;
+  std::unique_ptr<physics::WorldTopics> topics;
   std::vector<std::unique_ptr<LoadedPlugin>> plugins;
   int last_number = 0;
 };
@@ -74,14 +76,18 @@ void* open_world(const TrundleGazeboHost* host, const char* name, const char* el
   open->host = *host;
   open->world = boost::make_shared<physics::World>(name);
   physics::Builder::SetHost(open->world, &open->host, physics::read_elements(elements, size));
-  const std::lock_guard<std::mutex> lock(worlds_mutex);
-  worlds.push_back(open);
+  {
+    const std::lock_guard<std::mutex> lock(worlds_mutex);
+    worlds.push_back(open);
+  }
+  open->topics.reset(new physics::WorldTopics(*open->world));
   return open;
 }
 
 void close_world(void* self) {
   OpenWorld* open = static_cast<OpenWorld*>(self);
   open->plugins.clear();
+  open->topics.reset();
   const std::lock_guard<std::mutex> lock(worlds_mutex);
   worlds.erase(std::remove(worlds.begin(), worlds.end(), open), worlds.end());
 }
@@ -196,7 +202,9 @@ void before_step(void* self, int64_t time_ns, int64_t real_ns) {
 }
 
 void after_step(void* self, int64_t time_ns, int64_t real_ns) {
-  static_cast<OpenWorld*>(self)->world->AfterStep(time_ns, real_ns);
+  OpenWorld* open = static_cast<OpenWorld*>(self);
+  open->world->AfterStep(time_ns, real_ns);
+  if (open->topics) open->topics->Update(common::Time::FromNanoseconds(time_ns));
 }
 
 void reset(void* self, int number) {

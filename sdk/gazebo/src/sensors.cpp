@@ -146,6 +146,17 @@ void ForceTorqueSensor::Tell(const void* world) {
   new_wrenches_.SignalIn(world, message);
 }
 
+void SonarSensor::Tell(const void* world) {
+  msgs::SonarStamped message;
+  msgs::Set(message.mutable_time(), last_);
+  msgs::Sonar& sonar = *message.mutable_sonar();
+  sonar.set_range_min(min_);
+  sonar.set_range_max(max_);
+  sonar.set_radius(radius_);
+  sonar.set_range(range_);
+  new_ranges_.SignalIn(world, message);
+}
+
 void ContactSensor::Read(const sdf::ElementPtr& sdf) {
   const sdf::ElementPtr contact = sdf->FindElement("contact");
   if (!contact) return;

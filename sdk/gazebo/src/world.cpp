@@ -1,5 +1,6 @@
 #include <boost/make_shared.hpp>
 
+#include <gazebo/common/Console.hh>
 #include <gazebo/common/Events.hh>
 #include <gazebo/physics/ContactManager.hh>
 #include <gazebo/physics/physics.hh>
@@ -33,7 +34,12 @@ JointPtr PhysicsEngine::CreateJoint(const std::string& type, ModelPtr model) {
 }
 
 World::World(const std::string& name)
-    : name_(name), host_(nullptr), physics_(boost::make_shared<PhysicsEngine>(this)), last_time_ns_(0), iterations_(0) {
+    : name_(name),
+      host_(nullptr),
+      physics_(boost::make_shared<PhysicsEngine>(this)),
+      last_time_ns_(0),
+      iterations_(0),
+      is_paused_(false) {
   start_time_ = common::Time::GetWallTime();
   update_info_.worldName = name;
 }
@@ -52,6 +58,9 @@ void World::SetGravity(const ignition::math::Vector3d& g) { Request({"gravity"},
 void World::Reset() { Request({"reset"}); }
 void World::ResetTime() { Request({"reset_time"}); }
 void World::ResetEntities(Base::EntityType) { Request({"reset_poses"}); }
+void World::InsertModelFile(const std::string& filename) { Request({"insert_file", filename}); }
+void World::InsertModelString(const std::string& sdf) { Request({"insert", sdf}); }
+void World::InsertModelSDF(const sdf::SDF& sdf) { Request({"insert", sdf.ToString()}); }
 void World::RemoveModel(const std::string& name) { Request({"delete", name}); }
 
 ModelPtr World::ModelByName(const std::string& name) const {
@@ -77,13 +86,22 @@ void World::Request(const std::vector<std::string>& words, const std::vector<dou
                  static_cast<int>(numbers.size()));
 }
 
+void World::Animate() {
+  const common::Time time = update_info_.simTime;
+  const Entity_V animated = animated_;  // a function that is called at an end may start another
+  for (const EntityPtr& entity : animated) entity->Animate(time);
+}
+
 void World::BeforeStep(int64_t time_ns, int64_t real_ns) {
+  if (is_paused_) gzwarn << "a plugin does not pause the simulation; the page and /gazebo/pause_physics do\n";
+  is_paused_ = false;
   real_time_ = common::Time::FromNanoseconds(real_ns);
   if (time_ns < last_time_ns_) event::Events::timeReset.SignalIn(this);
   last_time_ns_ = time_ns;
   update_info_.simTime = common::Time::FromNanoseconds(time_ns);
   update_info_.realTime = real_time_;
   event::Events::worldUpdateBegin.SignalIn(this, update_info_);
+  Animate();
   const double step_s = physics_->GetMaxStepSize();
   for (const ModelPtr& model : models_)
     if (const JointControllerPtr& controller = model->controller_) {

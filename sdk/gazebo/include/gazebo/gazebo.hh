@@ -1,4 +1,4 @@
-// What plugins of Gazebo include first.
+// What plugins of Gazebo include first: everything.
 #ifndef GAZEBO_GAZEBO_HH_
 #define GAZEBO_GAZEBO_HH_
 
@@ -17,6 +17,7 @@
 
 #include <gazebo/gazebo_config.h>
 #include <gazebo/common/common.hh>
+#include <gazebo/gazebo_core.hh>
 #include <gazebo/math/gzmath.hh>
 
 #endif

@@ -34,6 +34,12 @@ typedef boost::shared_ptr<VisualPlugin> VisualPluginPtr;
 
 namespace common {
 
+class Animation;
+class NumericAnimation;
+class PoseAnimation;
+typedef boost::shared_ptr<Animation> AnimationPtr;
+typedef boost::shared_ptr<NumericAnimation> NumericAnimationPtr;
+typedef boost::shared_ptr<PoseAnimation> PoseAnimationPtr;
 typedef std::vector<std::string> StringV;
 typedef std::map<std::string, std::string> StrStr_M;
 

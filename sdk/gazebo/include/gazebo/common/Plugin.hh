@@ -12,17 +12,13 @@
 
 #include <gazebo/trundle_host.h>
 #include <gazebo/common/CommonTypes.hh>
+#include <gazebo/common/Console.hh>
 #include <gazebo/common/Events.hh>
+#include <gazebo/common/Exception.hh>
 #include <gazebo/physics/PhysicsTypes.hh>
 #include <gazebo/rendering/RenderTypes.hh>
 #include <gazebo/sensors/SensorTypes.hh>
 #include <gazebo/util/system.hh>
-
-#if defined(__GNUC__) || defined(__clang__)
-#define GZ_PLUGIN_VISIBLE __attribute__((visibility("default")))
-#else
-#define GZ_PLUGIN_VISIBLE
-#endif
 
 namespace gazebo {
 

@@ -4,6 +4,7 @@
 
 #include <boost/lexical_cast.hpp>  // plugins use it without including it
 
+#include <gazebo/common/Animation.hh>
 #include <gazebo/common/Assert.hh>
 #include <gazebo/common/Color.hh>
 #include <gazebo/common/CommonTypes.hh>
@@ -11,10 +12,12 @@
 #include <gazebo/common/Event.hh>
 #include <gazebo/common/Events.hh>
 #include <gazebo/common/Exception.hh>
+#include <gazebo/common/KeyFrame.hh>
 #include <gazebo/common/PID.hh>
 #include <gazebo/common/Plugin.hh>
 #include <gazebo/common/Time.hh>
 #include <gazebo/common/Timer.hh>
 #include <gazebo/common/UpdateInfo.hh>
+#include <gazebo/util/system.hh>
 
 #endif

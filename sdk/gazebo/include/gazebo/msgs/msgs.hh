@@ -245,6 +245,36 @@ class LaserScanStamped {
   void Clear() { *this = LaserScanStamped(); }
 };
 
+class Sonar {
+  TRUNDLE_FIELD(std::string, frame)
+  TRUNDLE_MESSAGE(Pose, world_pose)
+  TRUNDLE_FIELD(double, range_min)
+  TRUNDLE_FIELD(double, range_max)
+  TRUNDLE_FIELD(double, radius)
+  TRUNDLE_FIELD(double, range)
+
+ public:
+  void Clear() { *this = Sonar(); }
+};
+
+class SonarStamped {
+  TRUNDLE_MESSAGE(Time, time)
+  TRUNDLE_MESSAGE(Sonar, sonar)
+
+ public:
+  void Clear() { *this = SonarStamped(); }
+};
+
+class Tactile {
+  TRUNDLE_FIELDS(std::string, collision_name)
+  TRUNDLE_FIELDS(int32_t, collision_id)
+  TRUNDLE_FIELDS(double, pressure)
+  TRUNDLE_MESSAGE(Time, time)
+
+ public:
+  void Clear() { *this = Tactile(); }
+};
+
 class Vector3d_V {
   TRUNDLE_MESSAGES(Vector3d, vector3)
 
@@ -336,6 +366,7 @@ typedef boost::shared_ptr<JointCmd> JointCmdPtr;
 typedef boost::shared_ptr<WorldStatistics> WorldStatisticsPtr;
 typedef boost::shared_ptr<LaserScan> LaserScanPtr;
 typedef boost::shared_ptr<LaserScanStamped> LaserScanStampedPtr;
+typedef boost::shared_ptr<SonarStamped> SonarStampedPtr;
 
 }  // namespace msgs
 }  // namespace gazebo
@@ -365,5 +396,8 @@ typedef const boost::shared_ptr<const gazebo::msgs::JointCmd> ConstJointCmdPtr;
 typedef const boost::shared_ptr<const gazebo::msgs::WorldStatistics> ConstWorldStatisticsPtr;
 typedef const boost::shared_ptr<const gazebo::msgs::LaserScan> ConstLaserScanPtr;
 typedef const boost::shared_ptr<const gazebo::msgs::LaserScanStamped> ConstLaserScanStampedPtr;
+typedef const boost::shared_ptr<const gazebo::msgs::SonarStamped> ConstSonarStampedPtr;
+
+#include <gazebo/msgs/world_messages.h>
 
 #endif

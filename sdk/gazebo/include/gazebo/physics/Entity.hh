@@ -8,6 +8,8 @@
 #include <ignition/math/Box.hh>
 #include <ignition/math/Pose3.hh>
 
+#include <gazebo/common/CommonTypes.hh>
+#include <gazebo/common/Time.hh>
 #include <gazebo/math/Box.hh>
 #include <gazebo/math/Pose.hh>
 #include <gazebo/physics/Base.hh>
@@ -41,11 +43,22 @@ class Entity : public Base {
   ignition::math::Vector3d RelativeLinearAccel() const { return Own(WorldLinearAccel()); }
   ignition::math::Vector3d RelativeAngularAccel() const { return Own(WorldAngularAccel()); }
 
+  // Of its collisions, with the world's axes; meshes and planes count as points.
+  ignition::math::Box BoundingBox() const;
+  ignition::math::Box CollisionBoundingBox() const { return BoundingBox(); }
+
+  // Move along poses in the world before each step; `finished` is called at the end of what is no loop.
+  void SetAnimation(const common::PoseAnimationPtr& animation) { SetAnimation(animation, boost::function<void()>()); }
+  void SetAnimation(const common::PoseAnimationPtr& animation, boost::function<void()> finished);
+  virtual void StopAnimation();
+
   // Names up to Gazebo 8.
   math::Pose GetWorldPose() const { return WorldPose(); }
   math::Pose GetRelativePose() const { return RelativePose(); }
   math::Pose GetInitialRelativePose() const { return InitialRelativePose(); }
   math::Pose GetDirtyPose() const { return DirtyPose(); }
+  math::Box GetBoundingBox() const { return BoundingBox(); }
+  math::Box GetCollisionBoundingBox() const { return BoundingBox(); }
   math::Vector3 GetWorldLinearVel() const { return WorldLinearVel(); }
   math::Vector3 GetWorldAngularVel() const { return WorldAngularVel(); }
   math::Vector3 GetWorldLinearAccel() const { return WorldLinearAccel(); }
@@ -61,8 +74,19 @@ class Entity : public Base {
     return WorldPose().Rot().RotateVectorReverse(v);
   }
 
+  // Continue an animation before a step at a time.
+  virtual void Animate(const common::Time& time);
+  // Register for Animate.
+  void StartAnimation();
+
   ignition::math::Pose3d initial_;
   bool is_static_, is_canonical_;
+  common::Time animated_time_;
+
+ private:
+  friend class World;
+  common::PoseAnimationPtr animation_;
+  boost::function<void()> animation_finished_;
 };
 
 }  // namespace physics

@@ -58,12 +58,16 @@ class Joint : public Base {
   double GetEffortLimit(unsigned int axis) { return effort_limit_[Index(axis)]; }
   // Bounds the efforts of SetForce; negative: no bound.
   void SetEffortLimit(unsigned int axis, double limit) { effort_limit_[Index(axis)] = limit; }
+  // Of the file; as in Gazebo, it bounds nothing by itself.
   double GetVelocityLimit(unsigned int axis) { return velocity_limit_[Index(axis)]; }
+  void SetVelocityLimit(unsigned int axis, double limit) { velocity_limit_[Index(axis)] = limit; }
   double GetDamping(unsigned int axis) { return damping_[Index(axis)]; }
   // "vel" and "fmax": the motor's speed and largest effort; "hi_stop", "lo_stop": limits.
   bool SetParam(const std::string& key, unsigned int axis, const boost::any& value);
   double GetParam(const std::string& key, unsigned int axis);
 
+  // Of a joint made by CreateJoint, before it is attached; axes of the world.
+  void SetAxis(unsigned int axis, const ignition::math::Vector3d& direction) { axis_[Index(axis)] = direction; }
   ignition::math::Vector3d LocalAxis(unsigned int axis) const { return axis_[Index(axis)]; }
   ignition::math::Vector3d GlobalAxis(unsigned int axis) const;
   ignition::math::Vector3d Anchor(unsigned int axis) const;

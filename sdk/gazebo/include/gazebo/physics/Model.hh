@@ -46,6 +46,11 @@ class Model : public Entity {
                      bool update_children = true);
   void SetJointPosition(const std::string& joint, double position, int axis = 0);
   void SetJointPositions(const std::map<std::string, double>& positions);
+  // Move joints by their names, each along an animation of its own; `finished` is called at the end of those that are
+  // no loops.
+  void SetJointAnimation(const std::map<std::string, common::NumericAnimationPtr>& animations,
+                         boost::function<void()> finished = boost::function<void()>());
+  virtual void StopAnimation();
   void ResetPhysicsStates();
   // Return to the initial state.
   virtual void Reset();
@@ -62,8 +67,12 @@ class Model : public Entity {
   friend struct Builder;
   friend class World;
   friend class JointController;
+  virtual void Animate(const common::Time& time);
+
   Link_V links_;
   Joint_V joints_;
+  std::map<std::string, common::NumericAnimationPtr> joint_animations_;
+  boost::function<void()> joint_animations_finished_;
   JointControllerPtr controller_;
   bool self_collide_;
   unsigned int plugin_count_;

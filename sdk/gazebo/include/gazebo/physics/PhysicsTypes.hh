@@ -64,6 +64,7 @@ typedef boost::weak_ptr<World> WorldWeakPtr;
 typedef boost::weak_ptr<Model> ModelWeakPtr;
 
 typedef std::vector<BasePtr> Base_V;
+typedef std::vector<EntityPtr> Entity_V;
 typedef std::vector<CollisionPtr> Collision_V;
 typedef std::vector<JointControllerPtr> JointController_V;
 typedef std::vector<JointPtr> Joint_V;

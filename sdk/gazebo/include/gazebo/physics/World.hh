@@ -31,7 +31,9 @@ class World : public boost::enable_shared_from_this<World> {
   common::Time StartTime() const { return start_time_; }
   uint64_t Iterations() const { return iterations_; }
   // Plugins are not called while it is paused.
-  bool IsPaused() const { return false; }
+  bool IsPaused() const { return is_paused_; }
+  // For what a plugin does at one time alone: the page and /gazebo/pause_physics pause the simulation.
+  void SetPaused(bool is_paused) { is_paused_ = is_paused; }
   bool Running() const { return true; }
   PhysicsEnginePtr Physics() const { return physics_; }
   ignition::math::Vector3d Gravity() const;
@@ -52,6 +54,9 @@ class World : public boost::enable_shared_from_this<World> {
   void Reset();
   void ResetTime();
   void ResetEntities(Base::EntityType type = Base::BASE);
+  void InsertModelFile(const std::string& filename);
+  void InsertModelString(const std::string& sdf);
+  void InsertModelSDF(const sdf::SDF& sdf);
   void RemoveModel(const std::string& name);
   void RemoveModel(ModelPtr model) { RemoveModel(model->GetName()); }
 
@@ -81,18 +86,22 @@ class World : public boost::enable_shared_from_this<World> {
 
  private:
   friend struct Builder;
+  friend class Entity;
   friend class Joint;
   friend class PhysicsEngine;
+  void Animate();
   std::string name_;
   const TrundleGazeboHost* host_;
   PhysicsEnginePtr physics_;
   Model_V models_;
   Joint_V made_joints_;
+  Entity_V animated_;
   common::SphericalCoordinatesPtr spherical_coordinates_;
   common::Time real_time_, start_time_;
   common::UpdateInfo update_info_;
   int64_t last_time_ns_;
   uint64_t iterations_;
+  bool is_paused_;
 };
 
 // World by name; "": the one whose plugin runs, else the last one.

@@ -71,6 +71,10 @@ class Camera {
   // Last picture, until the next; null before the first.
   virtual const unsigned char* ImageData(unsigned int = 0) const { return image_.empty() ? nullptr : image_.data(); }
   void SetCaptureData(bool) {}
+  // Write the last picture, or the pixels of one, as PNG; false if there is none, or it cannot be written.
+  bool SaveFrame(const std::string& filename);
+  static bool SaveFrame(const unsigned char* image, unsigned int width, unsigned int height, int depth,
+                        const std::string& format, const std::string& filename);
 
   event::ConnectionPtr ConnectNewImageFrame(Function subscriber) { return new_images_.Connect(subscriber); }
   void DisconnectNewImageFrame(event::ConnectionPtr connection) { new_images_.Disconnect(connection); }

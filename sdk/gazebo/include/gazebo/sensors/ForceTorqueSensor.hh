@@ -19,6 +19,7 @@ class ForceTorqueSensor : public Sensor {
   event::ConnectionPtr ConnectUpdate(std::function<void(msgs::WrenchStamped)> subscriber) {
     return new_wrenches_.Connect(subscriber);
   }
+  void DisconnectUpdate(event::ConnectionPtr connection) { new_wrenches_.Disconnect(connection); }
   bool IsWanted() const override { return Sensor::IsWanted() || new_wrenches_.ConnectionCount() > 0; }
   physics::JointPtr GetJoint() const { return joint_; }
   math::Vector3 GetForce() const { return Force(); }

@@ -4,6 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include <boost/pointer_cast.hpp>  // boost::dynamic_pointer_cast, as in Gazebo up to 6
+
 #include <gazebo/common/CommonTypes.hh>
 
 namespace gazebo {

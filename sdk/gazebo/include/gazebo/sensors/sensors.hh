@@ -1,6 +1,7 @@
 #ifndef GAZEBO_SENSORS_SENSORS_HH_
 #define GAZEBO_SENSORS_SENSORS_HH_
 
+#include <gazebo/physics/physics.hh>
 #include <gazebo/sensors/CameraSensor.hh>
 #include <gazebo/sensors/ContactSensor.hh>
 #include <gazebo/sensors/DepthCameraSensor.hh>

@@ -1,13 +1,17 @@
 """What compiled plugins ask for between two steps."""
 
 import math
+import os
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from typing import TypeAlias
 
 from msgspec.structs import replace
 
 from trundle.base.diagnostics import UsageError
-from trundle.robots.model import Joint, JointAxis, JointType
+from trundle.robots.description import LoadedDescription, load, load_text
+from trundle.robots.model import Joint, JointAxis, JointType, Model
+from trundle.robots.packages import Packages
 from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose
 
@@ -69,11 +73,57 @@ def _set_gravity(sim: Simulation, words: Sequence[str], numbers: Sequence[float]
     sim.edit(replace(sim.world, physics=replace(sim.world.physics, gravity=(x, y, z))))
 
 
+def _insert(sim: Simulation, words: Sequence[str], numbers: Sequence[float]) -> None:
+    """Add the models of a text, at a pose if there is one."""
+    folder = Path(sim.world.at.file).parent
+    text = load_text(words[0], name="<plugin>", folder=folder, packages=_packages(sim), report=sim.report)
+    _spawn(sim, text, numbers)
+
+
+def _insert_file(sim: Simulation, words: Sequence[str], numbers: Sequence[float]) -> None:
+    """Add the models of a file or of model://NAME."""
+    _spawn(sim, load(words[0], sim.report, packages=_packages(sim)), numbers)
+
+
+def _packages(sim: Simulation) -> Packages:
+    return Packages(os.environ, start=Path(sim.world.at.file))
+
+
+def _spawn(sim: Simulation, loaded: LoadedDescription, numbers: Sequence[float]) -> None:
+    for model in loaded.world.models:
+        _spawn_model(sim, model, numbers)
+
+
+def _spawn_model(sim: Simulation, model: Model, numbers: Sequence[float], *, allow_renaming: bool = False) -> None:
+    if numbers:
+        x, y, z, *rotation = numbers
+        qw, qx, qy, qz = rotation
+        model = replace(model, world_from_model=Pose((x, y, z), (qw, qx, qy, qz)))
+    sim.spawn(model, allow_renaming=allow_renaming)
+
+
+def _clone(sim: Simulation, words: Sequence[str], numbers: Sequence[float]) -> None:
+    model = sim[words[0]].model
+    _spawn_model(sim, replace(model, name=f"{model.name}_clone"), numbers, allow_renaming=True)
+
+
+def _set_step_size(sim: Simulation, words: Sequence[str], numbers: Sequence[float]) -> None:
+    del words
+    (step_s,) = numbers
+    if not 0.0 < step_s < math.inf:
+        raise UsageError(f"a step of {step_s} s; it is above 0")
+    sim.edit(replace(sim.world, physics=replace(sim.world.physics, max_step_size_s=step_s)))
+
+
 _REQUESTS: Mapping[str, _Request] = {
     "set_model_pose": _set_model_pose,
     "attach": _attach,
     "detach": _detach,
     "gravity": _set_gravity,
+    "step_size": _set_step_size,
+    "insert": _insert,
+    "insert_file": _insert_file,
+    "clone": _clone,
     "reset": lambda sim, _words, _numbers: sim.reset(),
     "reset_time": lambda sim, _words, _numbers: sim.reset(poses=False),
     "reset_poses": lambda sim, _words, _numbers: sim.reset(time=False),
