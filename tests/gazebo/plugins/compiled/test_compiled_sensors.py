@@ -37,7 +37,7 @@ def _run(*words: str, cwd: Path, **variables: str) -> str:
 
 
 def test_each_kind_of_sensor_gives_its_readings(tmp_path: Path) -> None:
-    """A red wall 1.8 m ahead of a box of 2 kg on the ground, and a box that SetCollideMode lets fall, though a model comes."""
+    """A red wall 1.8 m ahead of a box of 2 kg; a box that SetCollideMode lets fall, though a model comes."""
     try:
         find_toolchain(os.environ)
     except UsageError as error:
