@@ -70,16 +70,18 @@ _OLD_NAMES = {
     "acc_lim_th": "acc_lim_theta",
 }
 _STOPPED = 0.01
-_SPOT_PENALTY, _ESCAPE_PENALTY = 1e6, 1e9
-"""Added to turns on the spot, which would always cost least, and, larger, to motion backwards."""
+_SPOT_PENALTY, _SIDEWAYS_PENALTY, _ESCAPE_PENALTY = 1e6, 1e7, 1e9
+"""Added to turns on the spot, which would always cost least, then to motion sideways, as robots with two wheels are
+`holonomic_robot` by default, and to motion backwards."""
 
 
 class TrajectoryPlannerROS(Follower):
     """Samples reachable velocities, simulates each, and commands the one of the least cost.
 
     Parameters are the original's (`TrajectorySettings`); pdist_scale, gdist_scale, max_rotational_vel,
-    min_in_place_rotational_vel and acc_lim_th are read, too. Unlike the original, a robot turns on the spot before it
-    follows a path that begins beside or behind it.
+    min_in_place_rotational_vel and acc_lim_th are read, too. As in the original, a robot moves sideways only where it
+    can neither drive forwards nor turn. Unlike in the original, a robot turns on the spot before it follows a path that
+    begins beside or behind it.
     """
 
     def __init__(
@@ -199,6 +201,7 @@ class TrajectoryPlannerROS(Follower):
             costs = costs + scale * (settings.path_distance_bias * path + settings.goal_distance_bias * goal)
         is_spot = (samples[:, 0] == 0.0) & (samples[:, 1] == 0.0)
         costs[is_spot] = _SPOT_PENALTY + front[is_spot]
+        costs[samples[:, 1] != 0.0] += _SIDEWAYS_PENALTY
         costs[samples[:, 0] < 0.0] += _ESCAPE_PENALTY
         return np.where(is_valid, costs, math.inf)
 
