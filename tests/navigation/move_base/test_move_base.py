@@ -41,18 +41,21 @@ def _map() -> dict[str, Any]:
     return {"header": {"frame_id": "map"}, "info": info, "data": cells.reshape(-1)}
 
 
-def _start(graph: Any, *, name: str = "move_base", **own: Any) -> None:
-    """Start move_base with the robot at 1.05, 1.05, and wait until it takes goals."""
+def start(graph: Any, *, name: str = "move_base", ends: bool = False, **own: Any) -> Any:
+    """Start move_base with the robot at 1.05, 1.05, and wait until it takes goals, unless it ends before."""
     graph.set_params({f"/{name}": _parameters(**own)})
     graph.advertise("/map", "nav_msgs/OccupancyGrid", latch=True).publish(_map())
     broadcaster = StaticTransformBroadcaster(graph.client)
     broadcaster.send_transform(Transform(parent="map", child="base_link", stamp_ns=0, translation=(1.05, 1.05, 0.0)))
-    graph.start("move_base/move_base", name=name)
+    running = graph.start("move_base/move_base", name=name)
+    if ends:
+        return running
     statuses = graph.listen("/move_base/status", "actionlib_msgs/GoalStatusArray")
     graph.until(lambda: statuses)
+    return running
 
 
-def _pose(x: float, y: float, w: float = 1.0) -> dict[str, Any]:
+def stamped_pose(x: float, y: float, w: float = 1.0) -> dict[str, Any]:
     return {"header": {"frame_id": "map"}, "pose": {"position": {"x": x, "y": y}, "orientation": {"w": w}}}
 
 
@@ -68,7 +71,7 @@ def _drive_to(graph: Any, target: dict[str, Any]) -> Message:
 
 def test_a_scan_marks_its_obstacles_and_frees_the_way_to_them(graph: Any) -> None:
     """100 lethal, 99 inscribed, 0 free, as costmap_2d translates costs."""
-    _start(graph)
+    start(graph)
     grids = graph.listen("/move_base/local_costmap/costmap", "nav_msgs/OccupancyGrid")
     updates = graph.listen("/move_base/local_costmap/costmap_updates", "map_msgs/OccupancyGridUpdate")
     scans = graph.advertise("/scan", "sensor_msgs/LaserScan")
@@ -91,11 +94,11 @@ def test_a_scan_marks_its_obstacles_and_frees_the_way_to_them(graph: Any) -> Non
 
 
 def test_make_plan_leads_to_the_goal_or_as_near_as_the_tolerance_allows(graph: Any) -> None:
-    _start(graph)
+    start(graph)
 
-    plan = graph.call("/move_base/make_plan", "nav_msgs/GetPlan", goal=_pose(2.0, 2.0)).plan
-    beyond = graph.call("/move_base/make_plan", "nav_msgs/GetPlan", goal=_pose(3.5, 1.0)).plan
-    near = graph.call("/move_base/make_plan", "nav_msgs/GetPlan", goal=_pose(3.5, 1.0), tolerance=1.0).plan
+    plan = graph.call("/move_base/make_plan", "nav_msgs/GetPlan", goal=stamped_pose(2.0, 2.0)).plan
+    beyond = graph.call("/move_base/make_plan", "nav_msgs/GetPlan", goal=stamped_pose(3.5, 1.0)).plan
+    near = graph.call("/move_base/make_plan", "nav_msgs/GetPlan", goal=stamped_pose(3.5, 1.0), tolerance=1.0).plan
 
     assert (plan.poses[0].pose.position.x, plan.poses[-1].pose.position.x) == pytest.approx((1.05, 2.0))
     assert plan.header.frame_id == "map"
@@ -105,7 +108,7 @@ def test_make_plan_leads_to_the_goal_or_as_near_as_the_tolerance_allows(graph: A
 
 
 def test_obstacles_stay_until_the_costmaps_are_cleared(graph: Any) -> None:
-    _start(graph)
+    start(graph)
     grids = graph.listen("/move_base/global_costmap/costmap", "nav_msgs/OccupancyGrid")
     updates = graph.listen("/move_base/global_costmap/costmap_updates", "map_msgs/OccupancyGridUpdate")
     scans = graph.advertise("/scan", "sensor_msgs/LaserScan")
@@ -131,11 +134,11 @@ def test_obstacles_stay_until_the_costmaps_are_cleared(graph: Any) -> None:
 
 
 def test_recovery_behaviors_run_in_order_before_a_goal_is_given_up(graph: Any) -> None:
-    _start(graph, recovery_behavior_enabled=True, clearing_rotation_allowed=False)
+    start(graph, recovery_behavior_enabled=True, clearing_rotation_allowed=False)
     statuses = graph.listen("/move_base/recovery_status", "move_base_msgs/RecoveryStatus")
     graph.until(lambda: graph.connected("/move_base/recovery_status"))
 
-    result = _drive_to(graph, _pose(3.5, 1.0))
+    result = _drive_to(graph, stamped_pose(3.5, 1.0))
 
     assert result.status.status == 4
     steps = [(status.current_recovery_number, status.recovery_behavior_name) for status in statuses]
@@ -147,12 +150,12 @@ def test_a_scan_may_be_missing_no_longer_than_expected(graph: Any) -> None:
     """Without data, the robot is not driven."""
     late = {"observation_sources": "scan", "scan": {**_SCAN, "expected_update_rate": 0.01}}
     local = {**_parameters()["local_costmap"], "obstacles": late}
-    _start(graph, local_costmap=local)
+    start(graph, local_costmap=local)
     commands = graph.listen("/cmd_vel", "geometry_msgs/Twist")
     goals = graph.advertise("/move_base_simple/goal", "geometry_msgs/PoseStamped")
     graph.until(lambda: graph.connected("/cmd_vel"))
 
-    goals.publish(_pose(2.0, 1.0))
+    goals.publish(stamped_pose(2.0, 1.0))
 
     graph.until(lambda: len(commands) > 5)
     assert not any(command.linear.x or command.angular.z for command in commands)
@@ -179,25 +182,25 @@ def test_an_unknown_planner_ends_the_node_with_the_names_of_those_that_exist(
 
 @pytest.mark.parametrize("planner", ["global_planner/GlobalPlanner", "carrot_planner/CarrotPlanner"])
 def test_other_global_planners_lead_to_the_goal(graph: Any, planner: str) -> None:
-    _start(graph, base_global_planner=planner)
+    start(graph, base_global_planner=planner)
 
-    plan = graph.call("/move_base/make_plan", "nav_msgs/GetPlan", goal=_pose(2.0, 2.0)).plan
+    plan = graph.call("/move_base/make_plan", "nav_msgs/GetPlan", goal=stamped_pose(2.0, 2.0)).plan
 
     assert (plan.poses[-1].pose.position.x, plan.poses[-1].pose.position.y) == pytest.approx((2.0, 2.0))
 
 
 def test_a_carrot_ends_before_a_wall(graph: Any) -> None:
-    _start(graph, base_global_planner="carrot_planner/CarrotPlanner")
+    start(graph, base_global_planner="carrot_planner/CarrotPlanner")
 
-    plan = graph.call("/move_base/make_plan", "nav_msgs/GetPlan", goal=_pose(3.0, 1.05)).plan
+    plan = graph.call("/move_base/make_plan", "nav_msgs/GetPlan", goal=stamped_pose(3.0, 1.05)).plan
 
     assert 2.6 < plan.poses[-1].pose.position.x < 2.9
 
 
 def test_a_goal_behind_a_wall_is_aborted(graph: Any) -> None:
-    _start(graph)
+    start(graph)
 
-    result = _drive_to(graph, _pose(3.5, 1.0))
+    result = _drive_to(graph, stamped_pose(3.5, 1.0))
 
     assert result.status.status == 4
     assert result.status.text == "Failed to find a valid plan. Even after executing recovery behaviors."
@@ -205,17 +208,17 @@ def test_a_goal_behind_a_wall_is_aborted(graph: Any) -> None:
 
 def test_a_goal_where_the_robot_stands_is_reached_at_once(graph: Any) -> None:
     """The action is move_base, whatever the node's name."""
-    _start(graph, name="move_base_node")
+    start(graph, name="move_base_node")
 
-    result = _drive_to(graph, _pose(1.05, 1.05))
+    result = _drive_to(graph, stamped_pose(1.05, 1.05))
 
     assert (result.status.status, result.status.text) == (3, "Goal reached.")
 
 
 def test_a_goal_without_orientation_is_refused(graph: Any) -> None:
-    _start(graph)
+    start(graph)
 
-    result = _drive_to(graph, _pose(2.0, 2.0, w=0.0))
+    result = _drive_to(graph, stamped_pose(2.0, 2.0, w=0.0))
 
     assert result.status.text == "Aborting on goal because it was sent with an invalid quaternion"
 
@@ -224,12 +227,12 @@ def test_a_goal_without_orientation_is_refused(graph: Any) -> None:
 def test_a_simple_goal_makes_the_robot_turn_toward_a_way_behind_it(graph: Any, planner: str) -> None:
     name = planner.rpartition("/")[2]
     limits: dict[str, Any] = {name: {"holonomic_robot": False, "max_vel_y": 0.0, "min_vel_y": 0.0}}
-    _start(graph, base_local_planner=planner, **limits)
+    start(graph, base_local_planner=planner, **limits)
     commands = graph.listen("/cmd_vel", "geometry_msgs/Twist")
     goals = graph.advertise("/move_base_simple/goal", "geometry_msgs/PoseStamped")
     graph.until(lambda: graph.connected("/cmd_vel"))
 
-    goals.publish(_pose(0.5, 1.3))
+    goals.publish(stamped_pose(0.5, 1.3))
 
     graph.until(lambda: any(command.angular.z for command in commands))
     turns = [command for command in commands if command.angular.z]

@@ -10,3 +10,4 @@ from .costmap import (
 )
 from .costmap_ros import CostmapRos as CostmapRos, CostmapSettings as CostmapSettings
 from .footprint import circle as circle, placed as placed, radii as radii
+from .plugin import LayerPlugin as LayerPlugin

@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING
 from trundle.robots.parameters import RosParameters
 from trundle.ros import Node, TransformBuffer
 
+from ..plugin_classes import find_plugin_class
 from ..settings import read_settings
 from .bounded_explore_layer import BoundedExploreLayer, BoundedExploreSettings
 from .costmap import Costmap
 from .inflation_layer import InflationLayer, InflationSettings
 from .observations import ObservationSource, SourceSettings
 from .obstacle_layer import ObstacleLayer, ObstacleSettings
+from .plugin import LayerPlugin
 from .range_sensor_layer import RangeSensorLayer, RangeSettings
 from .social_layer import SocialLayer, SocialSettings
 from .static_layer import StaticLayer, StaticSettings
@@ -20,6 +22,8 @@ from .voxel_layer import NonPersistentVoxelLayer, VoxelLayer, VoxelSettings
 
 if TYPE_CHECKING:
     from .layered_costmap import Layer
+LAYER_GROUP = "trundle.navigation.layers"
+"""Group of entry points of installed layers."""
 
 
 def plugin_list(node: Node, settings: RosParameters) -> list[tuple[str, str, RosParameters]]:
@@ -74,10 +78,18 @@ class LayerMaker:
         self._is_rolling = is_rolling
 
     def make(self, name: str, kind: str, settings: RosParameters) -> "Layer | None":
-        """Make a layer; None, with an error in the log, for a type without a stand-in."""
+        """Make a layer; None, with an error in the log, for a type that there is not.
+
+        Raises:
+            ParamError: a user's class does not load.
+        """
         short = re.split("::|/", kind)[-1]
         make = _MAKERS.get(short)
         if make is None:
+            own = find_plugin_class(self._node, LAYER_GROUP, LayerPlugin, kind)
+            if own is not None:
+                section = self._settings.section(name)
+                return own(self._node, name, section, self._master, self._buffer, self._frame)
             self._node.log.error(
                 f"{self._settings.namespace}: no layer {kind!r}; the costmap goes on without it; "
                 f"there are: {', '.join(_MAKERS)}"

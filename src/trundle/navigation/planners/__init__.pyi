@@ -5,3 +5,4 @@ from .catalog import (
     find_local_planner as find_local_planner,
 )
 from .interfaces import GlobalPlanner as GlobalPlanner, LocalPlanner as LocalPlanner, Plan as Plan, Pose2D as Pose2D
+from .plugin import GlobalPlannerPlugin as GlobalPlannerPlugin, LocalPlannerPlugin as LocalPlannerPlugin

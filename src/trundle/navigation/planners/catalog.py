@@ -7,6 +7,8 @@ from typing import Any
 from trundle.robots.parameters import ParamError, RosParameters
 from trundle.ros import Node
 
+from ..plugin_classes import find_plugin_class
+from .plugin import GlobalPlannerPlugin, LocalPlannerPlugin
 from .substitutes import GLOBAL_SUBSTITUTES, SUBSTITUTES
 
 GLOBAL_PLANNERS = {
@@ -20,6 +22,8 @@ LOCAL_PLANNERS = {
     "eband_local_planner/EBandPlannerROS": "trundle.navigation.planners.elastic_bands:EBandPlannerROS",
     "teb_local_planner/TebLocalPlannerROS": "trundle.navigation.planners.elastic_bands:TebLocalPlannerROS",
 }
+GLOBAL_GROUP, LOCAL_GROUP = "trundle.navigation.global_planners", "trundle.navigation.local_planners"
+"""Groups of entry points of installed planners."""
 
 
 def find_global_planner(node: Node, name: str, root: RosParameters) -> tuple[Any, str, RosParameters]:
@@ -28,11 +32,11 @@ def find_global_planner(node: Node, name: str, root: RosParameters) -> tuple[Any
     Raises:
         ParamError: there is none of that name.
     """
-    space = name.rpartition("/")[2]
-    if re.split("::", space)[-1] in GLOBAL_SUBSTITUTES:
+    space = re.split("/|::", name)[-1]
+    if space in GLOBAL_SUBSTITUTES:
         node.log.warn(f"base_global_planner: navfn/NavfnROS is used in place of {name}")
         return _find(GLOBAL_PLANNERS, "NavfnROS"), space, root.section(space)
-    kind = _find(GLOBAL_PLANNERS, name)
+    kind = _find(GLOBAL_PLANNERS, name) or find_plugin_class(node, GLOBAL_GROUP, GlobalPlannerPlugin, name)
     if kind is None:
         raise ParamError(f"no global planner {name!r}; there are: {', '.join(GLOBAL_PLANNERS)}")
     return kind, space, root.section(space)
@@ -52,7 +56,7 @@ def find_local_planner(node: Node, name: str, root: RosParameters) -> tuple[Any,
     if space in SUBSTITUTES:
         node.log.warn(f"base_local_planner: dwa_local_planner/DWAPlannerROS is used in place of {name}")
         return _find(LOCAL_PLANNERS, "DWAPlannerROS"), space, SUBSTITUTES[space](section)
-    kind = _find(LOCAL_PLANNERS, name)
+    kind = _find(LOCAL_PLANNERS, name) or find_plugin_class(node, LOCAL_GROUP, LocalPlannerPlugin, name)
     if kind is None:
         known = ", ".join((*LOCAL_PLANNERS, *SUBSTITUTES))
         raise ParamError(f"no local planner {name!r}; there are: {known}")

@@ -31,6 +31,10 @@ class FollowedPlan:
         """Follow a plan from its start."""
         self._plan, self._place = plan, 0
 
+    def clear(self) -> None:
+        """Follow nothing."""
+        self._plan = None
+
     def local(self, pose: Pose2D) -> NDArray[np.float64] | None:
         """Return the plan (n, 3) in the local frame from the robot on, as far as the local costmap reaches.
 
