@@ -122,6 +122,9 @@ void init(const M_string& remappings, const std::string& name, uint32_t options)
     this_node::init(name, remappings, options);
     s.is_initialized = true;
     param::init(remappings);
+  } else if (!s.is_started) {  // a second life, after shutdown()
+    s.is_shutting_down = false;
+    s.is_ok = true;
   }
 }
 

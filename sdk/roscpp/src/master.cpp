@@ -51,6 +51,7 @@ bool execute(const std::string& method, const XmlRpc::XmlRpcValue& request, XmlR
              XmlRpc::XmlRpcValue& payload, bool wait_for_master) {
   const SteadyTime start = SteadyTime::now();
   bool is_reported = false;
+  if (isShuttingDown() && !isStarted()) net::abortWaiting(1000);  // one call, also after the node's end
   while (true) {
     try {
       response = net::callXmlRpc(host, static_cast<uint16_t>(port), method, request);

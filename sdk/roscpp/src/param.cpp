@@ -161,9 +161,7 @@ void set(const std::string& key, const XmlRpcValue& value) {
   XmlRpcValue arguments, payload;
   arguments[0] = name;
   arguments[1] = value;
-  if (!node::callMaster("setParam", arguments, payload)) return;
-  const std::lock_guard<std::mutex> lock(cache().mutex);
-  if (cache().subscribed.count(name)) cache().values[name] = value;
+  if (node::callMaster("setParam", arguments, payload)) update(name, value);
 }
 
 void set(const std::string& key, const std::string& value) { set(key, XmlRpcValue(value)); }
@@ -230,10 +228,7 @@ bool del(const std::string& key) {
   const std::string name = names::resolve(key);
   XmlRpcValue arguments, payload;
   arguments[0] = name;
-  {
-    const std::lock_guard<std::mutex> lock(cache().mutex);
-    if (cache().subscribed.count(name)) cache().values[name] = XmlRpcValue();
-  }
+  update(name, XmlRpcValue());
   return node::callMaster("deleteParam", arguments, payload);
 }
 

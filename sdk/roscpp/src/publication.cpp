@@ -58,8 +58,11 @@ void Publication::publish(const std::function<SerializedMessage()>& serialize, S
     links = links_;
   }
   const bool has_remote = std::any_of(links.begin(), links.end(), [](const auto& link) { return link->connection; });
-  const bool has_local = std::any_of(links.begin(), links.end(), [](const auto& link) { return !link->connection; });
-  if (has_remote || is_latched || (has_local && !message.message)) {
+  const bool needs_bytes = std::any_of(links.begin(), links.end(), [&message](const auto& link) {
+    const std::shared_ptr<Subscription> subscription = link->local.lock();
+    return subscription && (!message.message || subscription->needsBytes(*message.type_info));
+  });
+  if (has_remote || is_latched || needs_bytes) {
     const SerializedMessage bytes = serialize();
     message.buf = bytes.buf;
     message.num_bytes = bytes.num_bytes;

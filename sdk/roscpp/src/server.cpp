@@ -45,7 +45,7 @@ XmlRpcValue success(const XmlRpcValue& value) { return answer(1, "", value); }
 
 XmlRpcValue requestTopic(const XmlRpcValue& parameters) {
   const std::string topic = names::clean(parameters[1]);
-  if (!topics::isAdvertised(topic)) return answer(0, "requestTopic: topic [" + topic + "] is not published", 0);
+  if (!topics::publication(topic)) return answer(0, "requestTopic: topic [" + topic + "] is not published", 0);
   const XmlRpcValue& protocols = parameters[2];
   for (int i = 0; i < protocols.size(); ++i) {
     if (protocols[i][0] != XmlRpcValue("TCPROS")) continue;
@@ -65,59 +65,50 @@ XmlRpcValue publisherUpdate(const XmlRpcValue& parameters) {
   return success(0);
 }
 
-/** Methods of every node. */
-const std::map<std::string, net::XmlRpcMethod>& ownMethods() {
-  static const auto* const all = new std::map<std::string, net::XmlRpcMethod>{
-      {"requestTopic", requestTopic},
-      {"publisherUpdate", publisherUpdate},
-      {"paramUpdate",
-       [](const XmlRpcValue& parameters) {
-         param::update(parameters[1], parameters[2]);
-         return success(0);
-       }},
-      {"shutdown",
-       [](const XmlRpcValue& parameters) {
-         const std::string reason = parameters.size() > 1 ? static_cast<std::string>(parameters[1]) : "";
-         ROS_WARN("Shutdown request received.\nReason given for shutdown: [%s]", reason.c_str());
-         requestShutdown();
-         return success(0);
-       }},
-      {"getPid", [](const XmlRpcValue&) { return success(static_cast<int>(getpid())); }},
-      {"getMasterUri", [](const XmlRpcValue&) { return success(master::getURI()); }},
-      {"getBusInfo", [](const XmlRpcValue&) { return success(topics::busInfo()); }},
-      {"getBusStats",
-       [](const XmlRpcValue&) {
-         XmlRpcValue none;
-         none[2].setSize(0);
-         none[1].setSize(0);
-         none[0].setSize(0);
-         return success(none);
-       }},
-      {"getPublications", [](const XmlRpcValue&) { return success(topics::publications()); }},
-      {"getSubscriptions", [](const XmlRpcValue&) { return success(topics::subscriptions()); }},
-  };
-  return *all;
-}
-
-/** Methods that the program has bound or unbound; an empty one is unbound. */
-struct Bound {
+struct Methods {
   std::mutex mutex;
-  std::map<std::string, net::XmlRpcMethod> methods;
+  std::map<std::string, net::XmlRpcMethod> by_name;
 };
 
-Bound& bound() {
-  static Bound* const all = new Bound;
+Methods& methods() {
+  static Methods* const all = new Methods{
+      {},
+      {
+          {"requestTopic", requestTopic},
+          {"publisherUpdate", publisherUpdate},
+          {"paramUpdate",
+           [](const XmlRpcValue& parameters) {
+             param::update(parameters[1], parameters[2]);
+             return success(0);
+           }},
+          {"shutdown",
+           [](const XmlRpcValue& parameters) {
+             const std::string reason = parameters.size() > 1 ? static_cast<std::string>(parameters[1]) : "";
+             ROS_WARN("Shutdown request received.\nReason given for shutdown: [%s]", reason.c_str());
+             requestShutdown();
+             return success(0);
+           }},
+          {"getPid", [](const XmlRpcValue&) { return success(static_cast<int>(getpid())); }},
+          {"getMasterUri", [](const XmlRpcValue&) { return success(master::getURI()); }},
+          {"getBusInfo", [](const XmlRpcValue&) { return success(topics::busInfo()); }},
+          {"getBusStats",
+           [](const XmlRpcValue&) {
+             XmlRpcValue none;
+             none[2].setSize(0);
+             none[1].setSize(0);
+             none[0].setSize(0);
+             return success(none);
+           }},
+          {"getPublications", [](const XmlRpcValue&) { return success(topics::publications()); }},
+          {"getSubscriptions", [](const XmlRpcValue&) { return success(topics::subscriptions()); }},
+      }};
   return *all;
 }
 
 net::XmlRpcMethod findMethod(const std::string& name) {
-  {
-    const std::lock_guard<std::mutex> lock(bound().mutex);
-    const auto found = bound().methods.find(name);
-    if (found != bound().methods.end()) return found->second;
-  }
-  const auto found = ownMethods().find(name);
-  return found == ownMethods().end() ? net::XmlRpcMethod() : found->second;
+  const std::lock_guard<std::mutex> lock(methods().mutex);
+  const auto found = methods().by_name.find(name);
+  return found == methods().by_name.end() ? net::XmlRpcMethod() : found->second;
 }
 
 /** Read the header of a peer that has connected, which names a topic or a service, and pass the peer on. */
@@ -167,17 +158,14 @@ void start() {
   loop.accept(std::move(data), acceptPeer);
 }
 
-bool bind(const std::string& name, const net::XmlRpcMethod& method) {
-  const std::lock_guard<std::mutex> lock(bound().mutex);
-  const auto found = bound().methods.find(name);
-  if (found == bound().methods.end() ? ownMethods().count(name) > 0 : bool(found->second)) return false;
-  bound().methods[name] = method;
-  return true;
+bool bind(const std::string& method, const net::XmlRpcMethod& answer) {
+  const std::lock_guard<std::mutex> lock(methods().mutex);
+  return methods().by_name.emplace(method, answer).second;
 }
 
-void unbind(const std::string& name) {
-  const std::lock_guard<std::mutex> lock(bound().mutex);
-  bound().methods[name] = net::XmlRpcMethod();
+void unbind(const std::string& method) {
+  const std::lock_guard<std::mutex> lock(methods().mutex);
+  methods().by_name.erase(method);
 }
 
 void stop() {

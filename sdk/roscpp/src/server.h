@@ -8,14 +8,14 @@ namespace ros {
 /** Servers of the node: XML-RPC, and TCPROS for topics and services. */
 namespace server {
 
-/** Answer a method of the slave API by a function; false if the name is bound already. */
-bool bind(const std::string& name, const net::XmlRpcMethod& method);
-/** Leave a method without an answer. */
-void unbind(const std::string& name);
 void start();
 void stop();
 /** Set the time by /clock. */
 void followClock();
+/** Answer an XML-RPC method; false if it has an answer. Another thread may ask for it at the same time. */
+bool bind(const std::string& method, const net::XmlRpcMethod& answer);
+/** Leave a method without an answer. */
+void unbind(const std::string& method);
 
 }  // namespace server
 }  // namespace ros

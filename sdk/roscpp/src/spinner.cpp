@@ -2,9 +2,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
 #include <thread>
 
 #include "ros/callback_queue.h"
+#include "ros/console.h"
 #include "ros/init.h"
 #include "ros/node_handle.h"
 
@@ -17,6 +22,52 @@ CallbackQueue* orGlobal(CallbackQueue* queue) { return queue ? queue : getGlobal
 
 uint32_t threadCount(uint32_t wanted) { return wanted ? wanted : std::max(1U, std::thread::hardware_concurrency()); }
 
+/** Who spins a queue: spinners with a single thread exclude others, except for those of the same thread. */
+class Spinning {
+ public:
+  /** Throws std::runtime_error if another spinner excludes this one. */
+  Spinning(CallbackQueue* queue, bool is_single) : queue_(queue) {
+    const std::thread::id thread = is_single ? std::this_thread::get_id() : std::thread::id();
+    {
+      const std::lock_guard<std::mutex> lock(mutex());
+      const auto entry = spun().emplace(queue, Entry{thread, 0}).first;
+      if (entry->second.thread == thread) {
+        ++entry->second.count;
+        return;
+      }
+    }
+    const std::string fault =
+        is_single ? "SingleThreadedSpinner: Attempt to spin a callback queue that another thread spins. Use one "
+                    "MultiThreadedSpinner or AsyncSpinner for several threads."
+                  : "AsyncSpinner: Attempt to spin a callback queue that a SingleThreadedSpinner spins.";
+    ROS_FATAL_STREAM(fault);
+    throw std::runtime_error(fault);
+  }
+  Spinning(const Spinning&) = delete;
+  Spinning& operator=(const Spinning&) = delete;
+  ~Spinning() {
+    const std::lock_guard<std::mutex> lock(mutex());
+    const auto entry = spun().find(queue_);
+    if (--entry->second.count == 0) spun().erase(entry);
+  }
+
+ private:
+  struct Entry {
+    std::thread::id thread;  // no thread: of spinners with several
+    int count;
+  };
+  static std::mutex& mutex() {
+    static std::mutex* const one = new std::mutex;
+    return *one;
+  }
+  static std::map<CallbackQueue*, Entry>& spun() {
+    static auto* const all = new std::map<CallbackQueue*, Entry>;
+    return *all;
+  }
+
+  CallbackQueue* const queue_;
+};
+
 }  // namespace
 
 /** Threads of an AsyncSpinner. */
@@ -26,6 +77,7 @@ class AsyncSpinnerImpl {
   ~AsyncSpinnerImpl() { stop(); }
   void start() {
     if (!threads_.empty()) return;
+    spinning_.reset(new Spinning(queue_, false));
     node_.reset(new NodeHandle);
     goes_on_ = true;
     for (uint32_t i = 0; i < count_; ++i)
@@ -42,6 +94,7 @@ class AsyncSpinnerImpl {
       if (thread.get_id() == std::this_thread::get_id()) thread.detach();  // a callback stops its own spinner
       else thread.join();
     threads_.clear();
+    spinning_.reset();
   }
 
  private:
@@ -50,10 +103,12 @@ class AsyncSpinnerImpl {
   std::atomic<bool> goes_on_{false};
   std::vector<std::thread> threads_;
   boost::shared_ptr<NodeHandle> node_;
+  std::unique_ptr<Spinning> spinning_;
 };
 
 void SingleThreadedSpinner::spin(CallbackQueue* queue) {
   queue = orGlobal(queue);
+  const Spinning spinning(queue, true);
   const NodeHandle node;
   while (node.ok()) queue->callAvailable(kSlice);
 }

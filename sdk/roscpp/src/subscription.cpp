@@ -23,7 +23,7 @@ class LazyMessage {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (message_ || is_broken_) return message_;
     if (serialized_.message && *serialized_.type_info == helper_->getTypeInfo()) return message_ = serialized_.message;
-    if (!serialized_.buf) return VoidConstPtr();  // sent within the process as another class of this type
+    if (!serialized_.buf) return VoidConstPtr();
     SubscriptionCallbackHelperDeserializeParams params;
     params.buffer = serialized_.message_start;
     params.length = static_cast<uint32_t>(serialized_.num_bytes -
@@ -306,6 +306,18 @@ void Subscription::connectLocally(const std::shared_ptr<Publication>& publicatio
   publication->addLink(link);
 }
 
+void Subscription::dropConnections(bool retries) {
+  std::vector<std::shared_ptr<net::FrameConnection>> connections;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const auto& entry : links_) {
+      entry.second->is_wanted = retries;
+      if (entry.second->connection) connections.push_back(entry.second->connection);
+    }
+  }
+  for (const auto& connection : connections) connection->close();
+}
+
 void Subscription::close() {
   std::vector<std::shared_ptr<net::FrameConnection>> connections;
   std::shared_ptr<Publication> local;
@@ -343,6 +355,12 @@ M_string Subscription::header() const {
 std::string Subscription::md5sum() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return md5sum_;
+}
+
+bool Subscription::needsBytes(const std::type_info& sent) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::any_of(queues_.begin(), queues_.end(),
+                     [&](const auto& queue) { return queue->helper->getTypeInfo() != sent; });
 }
 
 bool Subscription::accepts(const std::string& md5sum) const {

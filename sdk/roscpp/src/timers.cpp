@@ -34,7 +34,8 @@ bool never() { return false; }
 
 /** Times [ns] of a call. */
 struct CallTimes {
-  int64_t last_expected = 0, last_real = 0, current_expected = 0, current_real = 0, last_expired = 0;
+  int64_t last_expected = 0, last_real = 0, current_expected = 0, current_real = 0, last_expired = 0,
+          current_expired = 0;
   WallDuration last_duration;
 };
 
@@ -239,7 +240,8 @@ void TimerImpl::fire() {
     if (!is_started_ || is_waiting_) return;
     is_waiting_ = true;
     generation = generation_;
-    times_.last_expired = times_.current_expected;
+    times_.last_expired = times_.current_expired;
+    times_.current_expired = loop_.clock.now();
   }
   queue_->addCallback(boost::make_shared<TimerCall>(shared_from_this(), generation), reinterpret_cast<uint64_t>(this));
 }
@@ -286,6 +288,7 @@ Event eventOf(const CallTimes& times) {
   event.current_expected = EventTime().fromNSec(static_cast<uint64_t>(times.current_expected));
   event.current_real = EventTime().fromNSec(static_cast<uint64_t>(times.current_real));
   event.last_expired = EventTime().fromNSec(static_cast<uint64_t>(times.last_expired));
+  event.current_expired = EventTime().fromNSec(static_cast<uint64_t>(times.current_expired));
   event.profile.last_duration = times.last_duration;
   return event;
 }

@@ -15,6 +15,8 @@ struct State {
   std::mutex mutex;
   std::map<std::string, std::shared_ptr<Publication>> publications;
   std::map<std::string, std::shared_ptr<Subscription>> subscriptions;
+  /** Number of topics that were ever advertised. */
+  uint64_t advertised = 0;
   /** Held while a topic is registered, so that calls reach the master in the order of the changes. */
   std::mutex registering;
 };
@@ -74,6 +76,7 @@ std::shared_ptr<Publication> advertise(const AdvertiseOptions& options,
   std::shared_ptr<Subscription> own;
   {
     const std::lock_guard<std::mutex> lock(s.mutex);
+    publication->order = ++s.advertised;
     s.publications[options.topic] = publication;
     const auto found = s.subscriptions.find(options.topic);
     if (found != s.subscriptions.end()) own = found->second;
@@ -191,12 +194,30 @@ void publisherUpdate(const std::string& topic, const std::vector<std::string>& u
     subscription->setPublishers(uris);
 }
 
-bool isAdvertised(const std::string& topic) { return find(state().publications, topic) != nullptr; }
+std::shared_ptr<Publication> publication(const std::string& topic) { return find(state().publications, topic); }
+std::shared_ptr<Subscription> subscription(const std::string& topic) { return find(state().subscriptions, topic); }
+
+void dropConnections(bool retries) {
+  State& s = state();
+  std::vector<std::shared_ptr<Publication>> publications;
+  std::vector<std::shared_ptr<Subscription>> subscriptions;
+  {
+    const std::lock_guard<std::mutex> lock(s.mutex);
+    for (const auto& entry : s.publications) publications.push_back(entry.second);
+    for (const auto& entry : s.subscriptions) subscriptions.push_back(entry.second);
+  }
+  for (const auto& publication : publications)
+    for (const auto& link : publication->links())
+      if (const std::shared_ptr<net::FrameConnection> connection = link->connection) connection->close();
+  for (const auto& subscription : subscriptions) subscription->dropConnections(retries);
+}
 
 V_string advertised() {
   const std::lock_guard<std::mutex> lock(state().mutex);
+  std::map<uint64_t, std::string> by_order;
+  for (const auto& entry : state().publications) by_order[entry.second->order] = entry.first;
   V_string names;
-  for (const auto& entry : state().publications) names.push_back(entry.first);
+  for (const auto& entry : by_order) names.push_back(entry.second);
   return names;
 }
 

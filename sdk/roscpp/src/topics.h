@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <set>
+#include <typeinfo>
 #include <vector>
 
 #include "loop.h"
@@ -59,8 +60,9 @@ class Publication {
   const std::string topic, md5sum, datatype, definition;
   const size_t queue_size;
   const bool is_latched, has_header;
-  /** Number of publishers. */
+  /** Number of publishers, and of the topics that were advertised before. */
   int owners = 0;
+  uint64_t order = 0;
 
  private:
   void notify(const boost::shared_ptr<Callbacks>& callbacks, const boost::shared_ptr<SubscriberLink>& link,
@@ -88,12 +90,16 @@ class Subscription : public std::enable_shared_from_this<Subscription> {
   /** Connect to new publishers, and drop those that are gone. */
   void setPublishers(const std::vector<std::string>& uris);
   void connectLocally(const std::shared_ptr<Publication>& publication);
+  /** End the connections to publishers; with `retries` they are made again. */
+  void dropConnections(bool retries);
   void handleMessage(const SerializedMessage& message, const boost::shared_ptr<M_string>& header);
   void close();
   size_t publisherCount() const;
   /** Fields for the header of a connection to a publisher. */
   M_string header() const;
   std::string md5sum() const;
+  /** True if a callback gets messages of another C++ class, which has to be made from bytes. */
+  bool needsBytes(const std::type_info& sent) const;
   bool accepts(const std::string& md5sum) const;
   /** Address, publisher's name and state of each connection. */
   std::vector<std::pair<std::string, bool>> connections() const;
@@ -140,7 +146,11 @@ void unsubscribe(const std::shared_ptr<Subscription>& subscription, const Subscr
 bool acceptSubscriber(const std::shared_ptr<net::FrameConnection>& connection, const M_string& header);
 /** Handle the master's list of a topic's publishers. */
 void publisherUpdate(const std::string& topic, const std::vector<std::string>& uris);
-bool isAdvertised(const std::string& topic);
+/** A topic of this node; null if there is none. */
+std::shared_ptr<Publication> publication(const std::string& topic);
+std::shared_ptr<Subscription> subscription(const std::string& topic);
+/** End the connections to other nodes; a subscription with `retries` connects again. */
+void dropConnections(bool retries);
 V_string advertised();
 V_string subscribed();
 XmlRpc::XmlRpcValue busInfo();

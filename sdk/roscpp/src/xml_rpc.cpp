@@ -77,7 +77,7 @@ std::string writeParameters(const XmlRpcValue& values) {
 
 class HttpConnection : public Connection {
  public:
-  HttpConnection(Socket socket, const XmlRpcMethods& methods) : Connection(std::move(socket)), methods_(methods) {}
+  HttpConnection(Socket socket, const XmlRpcLookup& find) : Connection(std::move(socket)), find_(find) {}
 
  protected:
   bool onReadable() override {
@@ -106,7 +106,7 @@ class HttpConnection : public Connection {
   std::string handle(const std::string& body) const {
     size_t end = 0;
     const std::string name = tagged(body, "methodName", 0, end);
-    const XmlRpcMethod method = methods_(name);
+    const XmlRpcMethod method = find_(name);
     XmlRpcValue fault;
     try {
       if (!method) throw NetError("no method " + name.substr(0, 100));
@@ -134,7 +134,7 @@ class HttpConnection : public Connection {
     return !body.empty();
   }
 
-  XmlRpcMethods methods_;
+  const XmlRpcLookup find_;
   std::string text_;
 };
 
@@ -178,8 +178,8 @@ XmlRpcValue callXmlRpc(const std::string& host, uint16_t port, const std::string
   return values[0];
 }
 
-std::shared_ptr<Connection> serveXmlRpc(Socket socket, const XmlRpcMethods& methods) {
-  return std::make_shared<HttpConnection>(std::move(socket), methods);
+std::shared_ptr<Connection> serveXmlRpc(Socket socket, const XmlRpcLookup& find) {
+  return std::make_shared<HttpConnection>(std::move(socket), find);
 }
 
 }  // namespace net

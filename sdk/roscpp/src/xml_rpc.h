@@ -13,13 +13,12 @@ namespace net {
 XmlRpc::XmlRpcValue callXmlRpc(const std::string& host, uint16_t port, const std::string& method,
                                const XmlRpc::XmlRpcValue& parameters);
 
-/** Method of this node: returns the call's result. */
+/** Method of this node, which returns a call's result; null: there is none of a name. */
 typedef std::function<XmlRpc::XmlRpcValue(const XmlRpc::XmlRpcValue&)> XmlRpcMethod;
-/** Finds a method by its name; an empty function if there is none. */
-typedef std::function<XmlRpcMethod(const std::string&)> XmlRpcMethods;
+typedef std::function<XmlRpcMethod(const std::string&)> XmlRpcLookup;
 
 /** Serve methods on a connection, one request after the other. */
-std::shared_ptr<Connection> serveXmlRpc(Socket socket, const XmlRpcMethods& methods);
+std::shared_ptr<Connection> serveXmlRpc(Socket socket, const XmlRpcLookup& find);
 
 }  // namespace net
 }  // namespace ros

@@ -3,6 +3,7 @@
 #include "node.h"
 #include "ros/console.h"
 #include "ros/init.h"
+#include "ros/network.h"
 #include "server.h"
 
 namespace ros {
@@ -42,6 +43,12 @@ bool XMLRPCManager::bind(const std::string& function_name, const XMLRPCFunc& cb)
 
 void XMLRPCManager::unbind(const std::string& function_name) { server::unbind(function_name); }
 const std::string& XMLRPCManager::getServerURI() const { return node::uri(); }
+uint32_t XMLRPCManager::getServerPort() const {
+  std::string host;
+  uint32_t port = 0;
+  network::splitURI(node::uri(), host, port);
+  return port;
+}
 bool XMLRPCManager::isShuttingDown() const { return ros::isShuttingDown(); }
 
 bool XMLRPCManager::validateXmlrpcResponse(const std::string& method, XmlRpc::XmlRpcValue& response,

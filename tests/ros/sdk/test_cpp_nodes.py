@@ -86,6 +86,20 @@ def test_a_talker_and_a_service_answer_python_nodes(running: Running, graph: Gra
     assert "bye" in output, "the program goes on after spin()"
 
 
+def test_a_program_answers_the_request_to_shut_down(running: Running, graph: Graph) -> None:
+    node = graph.node("tester")
+    ticks: list[float] = []
+    node.subscribe("/add_two_ints_server/ticks", "std_msgs/Float64", lambda message: ticks.append(message.data))
+    server = running.start("add_two_ints_server", "_tells:=true")
+    until(lambda: ticks)
+    tool = [sys.executable, "-m", "trundle", "node", "kill", "/add_two_ints_server"]
+    subprocess.run(tool, env=running.environment, check=True, capture_output=True)
+    output, _ = server.communicate(timeout=WAIT_S)
+
+    assert re.search(r"asked: .+; latched 1 0, readers 1$", output, re.MULTILINE), output
+    assert output.rstrip().endswith("bye")
+
+
 def test_hostile_peers_do_not_end_a_node(running: Running, graph: Graph) -> None:
     """Headers and requests of random bytes, with lengths that lie."""
     node = graph.node("tester")

@@ -40,19 +40,19 @@ typedef boost::function<void(const SingleSubscriberPublisher&)> SubscriberStatus
 
 /** Times of a timer's callback. */
 struct TimerEvent {
-  Time last_expected, last_real, current_expected, current_real, last_expired;
+  Time last_expected, last_real, current_expected, current_real, last_expired, current_expired;
   struct {
     WallDuration last_duration;
   } profile;
 };
 struct WallTimerEvent {
-  WallTime last_expected, last_real, current_expected, current_real, last_expired;
+  WallTime last_expected, last_real, current_expected, current_real, last_expired, current_expired;
   struct {
     WallDuration last_duration;
   } profile;
 };
 struct SteadyTimerEvent {
-  SteadyTime last_expected, last_real, current_expected, current_real, last_expired;
+  SteadyTime last_expected, last_real, current_expected, current_real, last_expired, current_expired;
   struct {
     WallDuration last_duration;
   } profile;

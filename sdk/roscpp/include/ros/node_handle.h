@@ -458,7 +458,9 @@ class NodeHandle {
   bool deleteParam(const std::string& key) const { return param::del(resolveName(key)); }
   bool searchParam(const std::string& key, std::string& result) const {
     // A search begins in a namespace; the key is not resolved, so it is remapped here.
-    return param::search(resolveName(""), names::remap(key), result);
+    const M_string::const_iterator own = unresolved_remappings_.find(key);
+    return param::search(resolveName(""), own == unresolved_remappings_.end() ? names::remap(key) : own->second,
+                         result);
   }
   bool getParamNames(std::vector<std::string>& keys) const { return param::getParamNames(keys); }
   template <typename T>

@@ -2,6 +2,7 @@
 
 #include <boost/function.hpp>
 #include <boost/shared_ptr.hpp>
+#include <cstdint>
 #include <string>
 
 #include "ros/common.h"
@@ -31,6 +32,7 @@ class ROSCPP_DECL XMLRPCManager {
   /** Answer a method no longer; one of the node itself can be bound then. */
   void unbind(const std::string& function_name);
   const std::string& getServerURI() const;
+  uint32_t getServerPort() const;
   /** Whether an answer is one of success; `payload` is its value. */
   bool validateXmlrpcResponse(const std::string& method, XmlRpc::XmlRpcValue& response, XmlRpc::XmlRpcValue& payload);
   bool isShuttingDown() const;

@@ -230,11 +230,112 @@ void checkParameters(ros::NodeHandle& n) {
   CHECK(is_refused);
 }
 
+void checkCachedParents(ros::NodeHandle& n) {
+  XmlRpc::XmlRpcValue tree;
+  n.setParam("tree", 1);
+  CHECK(n.getParamCached("tree", tree));
+  n.setParam("tree/stem", 4);
+  n.setParam("tree/leaf", 2);
+  CHECK(n.getParamCached("tree", tree) && tree.hasMember("leaf"));
+  n.deleteParam("tree/leaf");
+  CHECK(n.getParamCached("tree", tree) && !tree.hasMember("leaf"));
+  ros::M_string remappings;
+  remappings["fruit"] = "apple";
+  const ros::NodeHandle orchard("tree", remappings);
+  std::string key;
+  n.setParam("fruit", 1);
+  CHECK(!orchard.searchParam("fruit", key));
+  n.setParam("apple", 1);
+  CHECK(orchard.searchParam("fruit", key) && key == "/apple");
+}
+
+/** Text with the type of std_msgs/String, as another class. */
+struct Words {
+  std::string data;
+};
+
+}  // namespace
+
+namespace ros {
+namespace message_traits {
+template <>
+struct MD5Sum<Words> {
+  static const char* value() { return MD5Sum<std_msgs::String>::value(); }
+  static const char* value(const Words&) { return value(); }
+};
+template <>
+struct DataType<Words> {
+  static const char* value() { return "std_msgs/String"; }
+  static const char* value(const Words&) { return value(); }
+};
+template <>
+struct Definition<Words> {
+  static const char* value() { return "string data\n"; }
+  static const char* value(const Words&) { return value(); }
+};
+}  // namespace message_traits
+namespace serialization {
+template <>
+struct Serializer<Words> {
+  template <typename Stream, typename T>
+  static void allInOne(Stream& stream, T words) {
+    stream.next(words.data);
+  }
+  ROS_DECLARE_ALLINONE_SERIALIZER
+};
+}  // namespace serialization
+}  // namespace ros
+
+namespace {
+
+void checkOtherClass(ros::NodeHandle& n) {
+  std::string heard;
+  ros::Subscriber subscriber = n.subscribe<std_msgs::String>(
+      "words", 1, [&](const std_msgs::StringConstPtr& message) { heard = message->data; });
+  ros::Publisher publisher = n.advertise<Words>("words", 1);
+  const boost::shared_ptr<Words> words(new Words);
+  words->data = "sent as it is";
+  publisher.publish(boost::shared_ptr<const Words>(words));
+  CHECK(waitFor([&] { return heard == "sent as it is"; }));
+}
+
+void checkSpinners() {
+  ros::CallbackQueue queue;
+  ros::AsyncSpinner several(2, &queue), more(1, &queue);
+  several.start();
+  more.start();
+  int refused = 0;
+  try {
+    ros::SingleThreadedSpinner().spin(&queue);
+  } catch (const std::runtime_error&) {
+    ++refused;
+  }
+  CHECK(refused == 1);
+}
+
+void checkSecondLife(int argc, char** argv) {
+  ros::shutdown();
+  CHECK(!ros::ok());
+  int kept = 0;
+  CHECK(ros::param::get("/kept", kept) && kept == 3);  // the master answers also now
+  ros::init(argc, argv, "checks");
+  ros::NodeHandle n;
+  int heard = 0;
+  ros::Subscriber subscriber =
+      n.subscribe<std_msgs::Int32>("again", 1, [&](const std_msgs::Int32ConstPtr& message) { heard = message->data; });
+  ros::Publisher publisher = n.advertise<std_msgs::Int32>("again", 1);
+  std_msgs::Int32 seven;
+  seven.data = 7;
+  publisher.publish(seven);
+  CHECK(waitFor([&] { return heard == 7; }));
+}
+
 void checkTimers(ros::NodeHandle& n) {
   int calls = 0, once = 0, wall = 0;
   ros::Timer timer = n.createTimer(ros::Duration(0.02), [&](const ros::TimerEvent& event) {
     ++calls;
     if (event.current_real < event.current_expected) calls = -1000;
+    if (event.current_expired < event.current_expected || event.current_real < event.current_expired) calls = -1000;
   });
   ros::Timer single = n.createTimer(ros::Duration(0.01), [&](const ros::TimerEvent&) { ++once; }, true);
   ros::WallTimer slow = n.createWallTimer(ros::WallDuration(0.05), [&](const ros::WallTimerEvent&) { ++wall; });
@@ -250,21 +351,30 @@ void checkTimers(ros::NodeHandle& n) {
   CHECK(waitFor([&] { return calls > last; }));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "checks");
+void checkAll(int argc, char** argv) {
   ros::NodeHandle n;
   CHECK(argc == 2 && std::string(argv[1]) == "--kept");
+  n.setParam("/kept", 3);
   checkTime();
   checkSerialization();
   checkTopics(n);
   checkServices(n);
   checkParameters(n);
+  checkCachedParents(n);
+  checkOtherClass(n);
+  checkSpinners();
   checkTimers(n);
   ROS_DEBUG("not shown");
   for (int i = 0; i < 3; ++i) ROS_WARN_ONCE("shown %s", "once");
   ROS_ERROR_STREAM_NAMED("sensor", "a stream, " << 3);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "checks");
+  checkAll(argc, argv);
+  checkSecondLife(argc, argv);
   std::cout << made << " checks, " << failed << " failed" << std::endl;
   return failed == 0 ? 0 : 1;
 }

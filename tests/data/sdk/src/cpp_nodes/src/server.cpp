@@ -1,5 +1,7 @@
 #include <cpp_nodes/AddTwoInts.h>
 #include <ros/ros.h>
+#include <ros/topic_manager.h>
+#include <ros/xmlrpc_manager.h>
 #include <std_msgs/Float64.h>
 #include <std_msgs/String.h>
 
@@ -41,9 +43,25 @@ class Server {
   ros::Timer timer_;
 };
 
+// Tells why it is asked to end, and what it publishes then.
+void onShutdown(XmlRpc::XmlRpcValue& parameters, XmlRpc::XmlRpcValue& result) {
+  ros::TopicManager& topics = *ros::TopicManager::instance();
+  ROS_INFO("asked: %s; latched %d %d, readers %zu", static_cast<std::string>(parameters[1]).c_str(),
+           topics.isLatched("/echo"), topics.isLatched("/none"),
+           topics.getNumSubscribers("/add_two_ints_server/ticks"));
+  ros::requestShutdown();
+  result = ros::xmlrpc::responseInt(1, "", 0);
+}
+
 int main(int argc, char** argv) {
   ros::init(argc, argv, "add_two_ints_server");
   Server server;
+  if (ros::param::param<bool>("~tells", false)) {
+    ros::XMLRPCManager& manager = *ros::XMLRPCManager::instance();
+    if (manager.bind("shutdown", onShutdown)) ROS_ERROR("shutdown had no answer");
+    manager.unbind("shutdown");
+    manager.bind("shutdown", onShutdown);
+  }
   ros::spin();
   ROS_INFO("bye");
 }

@@ -1,0 +1,9 @@
+#pragma once
+
+#include <cstdint>
+
+#include <std_msgs/UInt16.h>
+
+#include "std_msgs/trait_macros.h"
+
+STD_MSGS_DEFINE_BUILTIN_TRAITS(uint16_t, std_msgs::UInt16)
