@@ -14,6 +14,9 @@ from trundle.planning.planners import (
     MotionPlanRequest,
     PlanningFailure,
     PositionConstraint,
+    RequestError,
+    blended,
+    joined,
     joint_goal,
     plan,
     pose_goal,
@@ -140,3 +143,67 @@ def test_ptp_avoids_nothing() -> None:
     assert isinstance(result, PlanningFailure)
     assert result.error_code is ErrorCode.INVALID_MOTION_PLAN
     assert result.sentence == "PTP: the motion is in collision; it avoids nothing"
+
+
+def _group_part(scene: PlanningScene, trajectory: Trajectory) -> Trajectory:
+    indices = scene.model.indices(scene.model.group("arm").variables)
+    return Trajectory(
+        times=trajectory.times,
+        positions=trajectory.positions[:, indices],
+        velocities=trajectory.velocities[:, indices],
+        accelerations=trajectory.accelerations[:, indices],
+    )
+
+
+def _corner() -> tuple[PlanningScene, Trajectory, Trajectory]:
+    """Return two lines of 0.2 m at a right angle."""
+    scene = scene_with()
+    limits = CartesianLimits(max_trans_vel=0.2, max_trans_acc=0.5, max_trans_dec=-0.5)
+    first = _trajectory(
+        scene, planner="LIN", goals=(pose_goal("flange", _beside(scene, 0.0, 0.2, 0.0)),), cartesian_limits=limits
+    )
+    start = first.positions[-1]
+    pose = scene.link_pose("flange", start)
+    x, y, z = pose.position
+    goal = pose_goal("flange", Pose((x, y, z - 0.2), pose.quaternion))
+    second = _trajectory(scene, planner="LIN", start=start, goals=(goal,), cartesian_limits=limits)
+    return scene, _group_part(scene, first), _group_part(scene, second)
+
+
+def test_a_blended_corner_does_not_stop_and_stays_in_its_sphere() -> None:
+    scene, first, second = _corner()
+
+    stops = joined(scene, "arm", first, second)
+    whole = blended(scene, "arm", ready(), first, second, 0.05)
+
+    model = scene.model
+    states = np.tile(ready(), (len(whole.times), 1))
+    states[:, model.indices(model.group("arm").variables)] = whole.positions
+    places = np.array([scene.link_pose("flange", state).position for state in states])
+    corner = places[0] + (0.0, 0.2, 0.0)
+    off = np.minimum(
+        np.linalg.norm(places[:, [0, 2]] - corner[[0, 2]], axis=1), np.linalg.norm(places[:, :2] - corner[:2], axis=1)
+    )
+    inside = np.linalg.norm(places - corner, axis=1) <= 0.05 * 1.1
+    speeds = np.linalg.norm(np.diff(places, axis=0), axis=1) / np.diff(whole.times)
+    assert stops.duration == pytest.approx(first.duration + second.duration)
+    assert whole.duration < stops.duration - 0.1
+    assert off[~inside].max() < 1e-3
+    assert off[inside].max() > 0.005
+    assert speeds[3:-3].min() > 0.05
+    assert np.linalg.norm(places[-1] - corner - (0.0, 0.0, -0.2)) < 1e-3
+    steps = np.diff(whole.positions, axis=0)
+    means = (whole.velocities[1:] + whole.velocities[:-1]) / 2 * np.diff(whole.times)[:, None]
+    assert steps == pytest.approx(means, abs=0.02)
+    assert np.all(np.diff(whole.times) > 0)
+
+
+def test_corners_that_cannot_be_blended_are_refused() -> None:
+    scene, first, second = _corner()
+
+    with pytest.raises(RequestError, match="before the corner does not leave the sphere"):
+        blended(scene, "arm", ready(), first, second, 0.3)
+    middle = _beside(scene, 0.0, 0.19, -0.01).position
+    scene.add(thing("pin", Sphere(0.01), *middle))
+    with pytest.raises(RequestError, match="in collision"):
+        blended(scene, "arm", ready(), first, second, 0.05)

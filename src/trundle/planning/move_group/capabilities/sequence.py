@@ -1,14 +1,20 @@
 """pilz_industrial_motion_planner's sequences: the action sequence_move_group and the service plan_sequence_path."""
 
+import asyncio
+import math
 import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+import msgspec
 import numpy as np
 
-from trundle.planning.planners import ErrorCode
+from trundle.planning.planners import ErrorCode, RequestError, blended, joined
+from trundle.planning.planning_scene import PlanningScene
+from trundle.planning.trajectories import Trajectory
 from trundle.ros import ActionResult, ActionServer
 
+from ..controllers import JointPath
 from ..error_codes import result_text
 from ..plan_execution import execute_watched
 from ..plan_outcome import PlanOutcome
@@ -54,30 +60,100 @@ def offer_sequence_action(context: "Context") -> None:
 
 
 async def _plan(context: "Context", request: "Message") -> tuple[ErrorCode, list[PlanOutcome], float]:
-    """Plan each item from where the last one of its group ends; blends are stops."""
+    """Plan each item from where the last one ends; those of one group after each other become one path."""
     items = list(request.items)
     began = time.monotonic()
-    if len(items) > _MAX_ITEMS:
-        context.node.log.error(f"a sequence of {len(items)} items; at most {_MAX_ITEMS}")
-        return ErrorCode.FAILURE, [], 0.0
-    if any(float(item.blend_radius) > 0.0 for item in items):
-        context.node.log.warn("blend radii are not used: the motion stops at each point of the sequence")
+    radii = [float(item.blend_radius) for item in items]
     outcomes: list[PlanOutcome] = []
     positions: np.ndarray | None = None
-    for index, item in enumerate(items):
-        wanted = item.req
-        if positions is not None:
-            state = context.state_fields(positions)
-            wanted.start_state = context.node.new("moveit_msgs/RobotState", state)
-        outcome = await context.plan(wanted, context.monitor.contents)
-        if not outcome.is_success or outcome.path is None:
-            context.node.log.error(f"item {index} of the sequence: {outcome.sentence}")
-            return outcome.code, [], time.monotonic() - began
-        outcomes.append(outcome)
-        positions = outcome.start.copy()
-        positions[context.monitor.model.indices(outcome.path.joints)] = outcome.path.positions[-1]
-        positions = context.monitor.model.with_mimics(positions)
-    return ErrorCode.SUCCESS, outcomes, time.monotonic() - began
+    try:
+        _check_radii(radii)
+        for index, item in enumerate(items):
+            wanted = item.req
+            if positions is not None:
+                state = context.state_fields(positions)
+                wanted.start_state = context.node.new("moveit_msgs/RobotState", state)
+            outcome = await context.plan(wanted, context.monitor.contents)
+            if not outcome.is_success or outcome.path is None:
+                raise RequestError(outcome.code, f"item {index} of the sequence: {outcome.sentence}")
+            outcomes.append(outcome)
+            positions = outcome.start.copy()
+            positions[context.monitor.model.indices(outcome.path.joints)] = outcome.path.positions[-1]
+            positions = context.monitor.model.with_mimics(positions)
+        joined_outcomes = await asyncio.to_thread(_joined, context, outcomes, radii) if outcomes else []
+    except RequestError as error:
+        context.node.log.error(error.failure.sentence)
+        return error.failure.error_code, [], time.monotonic() - began
+    return ErrorCode.SUCCESS, joined_outcomes, time.monotonic() - began
+
+
+def _check_radii(radii: list[float]) -> None:
+    if len(radii) > _MAX_ITEMS:
+        raise RequestError(ErrorCode.FAILURE, f"a sequence of {len(radii)} items; at most {_MAX_ITEMS}")
+    if not all(0.0 <= radius < math.inf for radius in radii):
+        raise RequestError(ErrorCode.INVALID_MOTION_PLAN, f"blend radii are not negative, got {radii}")
+    if radii and radii[-1] != 0.0:
+        raise RequestError(ErrorCode.INVALID_MOTION_PLAN, f"the last blend radius is 0, got {radii[-1]:g}")
+
+
+def _joined(context: "Context", outcomes: list[PlanOutcome], radii: list[float]) -> list[PlanOutcome]:
+    """Return the plans, those of one group after each other as one, blended where the radius is above 0."""
+    merged = [outcomes[0]]
+    corner: tuple[np.ndarray, float] | None = None
+    """Place of the last blended corner, and its radius [m]."""
+    for index, outcome in enumerate(outcomes[1:]):
+        last, radius = merged[-1], radii[index]
+        if outcome.group != last.group or last.path is None or outcome.path is None:
+            if radius > 0.0:
+                context.node.log.warn(f"item {index}: a blend radius between two groups is not used")
+            merged.append(outcome)
+            corner = None
+            continue
+        scene = context.pipelines.scene(context.monitor.contents, last.start)
+        first, second = _trajectory(last.path), _trajectory(outcome.path)
+        if radius > 0.0:
+            corner = _check_overlap(context, scene, outcome, corner, radius)
+            whole = blended(scene, outcome.group, last.start, first, second, radius)
+        else:
+            corner = None
+            whole = joined(scene, outcome.group, first, second)
+        path = JointPath(
+            joints=last.path.joints,
+            times_s=whole.times,
+            positions=whole.positions,
+            velocities=whole.velocities,
+            accelerations=whole.accelerations,
+        )
+        merged[-1] = msgspec.structs.replace(last, path=path)
+    return merged
+
+
+def _check_overlap(
+    context: "Context",
+    scene: PlanningScene,
+    outcome: PlanOutcome,
+    corner: tuple[np.ndarray, float] | None,
+    radius: float,
+) -> tuple[np.ndarray, float]:
+    """Return the place where a motion begins with its radius; the sphere of the corner before must be apart."""
+    tips = context.monitor.model.group(outcome.group).tips
+    place = np.array(scene.link_pose(tips[0], outcome.start).position) if tips else np.zeros(3)
+    if corner is not None and np.linalg.norm(place - corner[0]) < corner[1] + radius:
+        sentence = (
+            f"overlapping blend radii: {corner[1]:g} and {radius:g} m, corners {math.dist(place, corner[0]):g} m apart"
+        )
+        raise RequestError(ErrorCode.INVALID_MOTION_PLAN, sentence)
+    return place, radius
+
+
+def _trajectory(path: JointPath) -> Trajectory:
+    still = np.zeros_like(path.positions)
+    return Trajectory(
+        times=path.times_s,
+        positions=path.positions,
+        velocities=still if path.velocities is None else path.velocities,
+        accelerations=still if path.accelerations is None else path.accelerations,
+    )
 
 
 def _response(context: "Context", code: ErrorCode, outcomes: list[PlanOutcome], seconds: float) -> dict[str, Any]:
