@@ -4,6 +4,7 @@
 #include "topics.h"
 
 namespace ros {
+
 const TopicManagerPtr& TopicManager::instance() {
   static const TopicManagerPtr* const manager = new TopicManagerPtr(new TopicManager);
   return *manager;
