@@ -12,6 +12,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
+import psutil
 from tests.graphs import PATIENCE_S
 
 _COLUMNS, _ROWS = 200, 50
@@ -71,6 +72,19 @@ class Terminal:
         output = self.printed[self._position : start + len(text)]
         self._position = start + len(text)
         return output
+
+    def expect_program(self, name: str) -> None:
+        """Wait until a program is in the foreground, which Ctrl-C reaches."""
+        due = time.monotonic() + PATIENCE_S
+        while not self._is_in_foreground(name):
+            assert time.monotonic() < due, f"{name} does not start:\n{self.printed}"
+            self._read(0.1)
+
+    def _is_in_foreground(self, name: str) -> bool:
+        try:
+            return psutil.Process(os.tcgetpgrp(self._screen)).name() == name
+        except psutil.NoSuchProcess:
+            return False
 
     def wait(self) -> int:
         """Wait for the end of the program; return its exit code."""

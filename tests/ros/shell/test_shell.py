@@ -209,6 +209,7 @@ def test_an_interactive_shell_reads_its_start_files_and_completes(
         terminal.keys("roscd rospy_tu\x15")
         terminal.keys("sleep 1000\n")
         terminal.expect("sleep 1000")
+        terminal.expect_program("sleep")
         terminal.keys("\x03")
         terminal.expect("(trundle) ready> ")  # what is typed sooner may lose its first letters
         terminal.type("echo still $((40 + 2))")
