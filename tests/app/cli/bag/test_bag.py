@@ -211,7 +211,9 @@ def test_a_full_disk_leaves_the_existing_bag(bag: Path, tmp_path: Path, name: st
         limited = ["sh", "-c", 'ulimit -f 1; exec "$@"', "sh", *arguments]
         process = subprocess.run(limited, capture_output=True, text=True, check=False)
         assert process.returncode == 1
-        assert re.fullmatch(rf"ERROR: {out}(\.part)? cannot be written: File too large", process.stderr.splitlines()[-1])
+        assert re.fullmatch(
+            rf"ERROR: {out}(\.part)? cannot be written: File too large", process.stderr.splitlines()[-1]
+        )
         assert [path.name for path in out.parent.iterdir()] == [name]
         assert out.read_bytes() == last.read_bytes()
 
