@@ -41,7 +41,7 @@ PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "ARCHITECTURE.md",
 """Pages of the documentation; empty in the sdist."""
 COMMANDS = Path(os.environ.get("TRUNDLE_COMMANDS", Path(sys.executable).parent))
 """Folder of `trundle` and `python` for blocks."""
-_TIMEOUT_S = 300.0
+_TIMEOUT_S = 900.0
 _SLOW = re.compile(r"(---\n.*?\n---\n)?<!-- slow -->", re.DOTALL)
 _FENCE = re.compile(
     r"(?:^[ ]*<!-- (?P<mark>[^\n]+?) -->\n+)?"

@@ -10,7 +10,7 @@ from typing import Any
 
 from trundle.ros import Core, GraphLoop, Messages, Node
 
-PATIENCE_S = 60.0
+PATIENCE_S = 180.0
 """Timeout of any wait on a busy machine [s]."""
 
 

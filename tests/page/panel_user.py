@@ -6,7 +6,7 @@ from typing import Any
 
 from tests.graphs import PATIENCE_S
 
-PATIENCE_MS = 60_000
+PATIENCE_MS = 180_000
 _STILL_MS = 700
 """Time without a change after which a value is still: a scene at rest is drawn once more after 300 [ms]."""
 
