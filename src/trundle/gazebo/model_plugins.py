@@ -191,6 +191,7 @@ def _attach_compiled(
         subject = _sensor_plugin(sensor.name, tag)
         simulation.report.warn_error(error, tag.at, _FALLBACK, "plugin-failed", subject=subject)
         return False
+    node.log.info(f"plugin {tag.name!r} of {sensor.scoped_name}: {library}, in C++")
     return True
 
 

@@ -1,4 +1,7 @@
 // Plugin of any sensor: prints its first reading after 0.3 s.
+#include <gazebo/plugins/DepthCameraPlugin.hh>  // first, as each header brings what it uses
+#include <gazebo/plugins/RayPlugin.hh>
+
 #include <cmath>
 #include <string>
 

@@ -50,6 +50,7 @@ def test_each_kind_of_sensor_gives_its_readings(tmp_path: Path) -> None:
         words = ("run", "sense.world", "--headless", "--duration", "1", "--speed", "max")
         output = _run(*words, cwd=folder, ROS_MASTER_URI=graph.core.uri)
 
+    assert re.search(rf"plugin '\w+' of \S*box::body::lidar: {folder}/build/lib\w+\.so, in C\+\+\n", output), output
     seen = dict(re.findall(r"seen (\w+) of box::body: (.*)", output))
     assert seen == {
         "lidar": "5 rays from -0.20 to 0.20, middle 1.800, topic 5",

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <gazebo/common/Exception.hh>
 #include <gazebo/common/Plugin.hh>
 #include <gazebo/rendering/DepthCamera.hh>
 #include <gazebo/sensors/DepthCameraSensor.hh>

@@ -2,6 +2,7 @@
 #ifndef GAZEBO_PLUGINS_RAYPLUGIN_HH_
 #define GAZEBO_PLUGINS_RAYPLUGIN_HH_
 
+#include <gazebo/common/Exception.hh>
 #include <gazebo/common/Plugin.hh>
 #include <gazebo/sensors/RaySensor.hh>
 

@@ -52,6 +52,7 @@ def load_hardware(
         text = "".join(f"<{name}>{escape(value)}</{name}>" for name, value in words.items())
         element = parse_xml(f"<plugin>{text}</plugin>", name=tag.at.file)
         CompiledPlugins.of(sim).load(own, replace(tag, node=element), model.name, node)
+        node.log.info(f"hardware {found.name}: {found.library}, in C++")
         return CompiledRobot.of_model(library, model.name)
     except RuntimeError as error:
         raise ParamError(f"{found.library}: {' '.join(str(error).split())}") from None
