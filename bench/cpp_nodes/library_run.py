@@ -13,7 +13,7 @@ from .workspace import Target, Workspace
 
 _SUFFIXES = (".so", ".dylib")
 _GAZEBO, _CLASSES = b"trundle gazebo plugin", b"_ZN12class_loader4impl13registerClass"
-_LOADED = re.compile(r"(?P<what>plugin .*|controller \S+|hardware \S+.*): (?P<library>\S+), in C\+\+")
+_LOADED = re.compile(r"(?P<what>plugin .*?|controller \S+|hardware \S+.*): (?P<library>\S+), in C\+\+")
 _RUN_S, _RUNS, _SIMULATED_S = 90.0, 4, "3"
 _NO_LAUNCH = "no launch file, world or robot of its repositories names it"
 

@@ -95,10 +95,10 @@ class ProgramRun:
                 published, subscribed, services_now = _names_of_others(uri)
                 services |= services_now
                 types = dict(MasterProxy(uri).call("getTopicTypes"))
-                for topic in published - outputs:
+                for topic in published - subscribed - outputs:
                     outputs.add(topic)
                     node.subscribe(topic, types[topic], lambda _, topic=topic: received.add(topic))
-                for topic in subscribed - published - inputs.keys():
+                for topic in subscribed - inputs.keys():
                     inputs[topic] = node.advertise(topic, types[topic]), types[topic]
                 for publisher, kind in inputs.values():
                     publisher.publish(node.messages.new(kind, fields_of(kind)))

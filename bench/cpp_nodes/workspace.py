@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from trundle.base.diagnostics import DescriptionError, Diagnostics
-from trundle.robots.launch import LaunchNode, LaunchPlan, read_launch
+from trundle.robots.launch import LaunchNode, LaunchPlan, ParamCommand, read_launch
 from trundle.robots.packages import Packages
 
 _REPORTED = re.compile(r"^--   (?P<kind>program|library) (?P<name>\S+) \(.*?\): (?P<state>.+)$")
@@ -84,14 +84,11 @@ class Workspace:
 
     def launch_of(self, target: Target) -> tuple[LaunchPlan, LaunchNode] | None:
         """Return the launch that starts a program, and its node there."""
-        source = self.base / "src"
-        packages = Packages({**self.environment, "ROS_PACKAGE_PATH": str(source)}, start=source)
         for file in self._files("*.launch"):
             if target.name not in file.read_text(errors="replace"):
                 continue
-            try:
-                plan = read_launch(file, packages=packages, report=Diagnostics(), env=self.environment)
-            except (DescriptionError, OSError):
+            plan = self._plan(file)
+            if plan is None:
                 continue
             for node in plan.nodes:
                 if (node.package, node.type) == (target.package, target.name):
@@ -99,11 +96,37 @@ class Workspace:
         return None
 
     def launches_that_name(self, words: Iterable[str]) -> Iterator[Path]:
-        """Yield the launch files that name one of some words, or a file that does, and so on."""
+        """Yield the launch files that start Gazebo with a world, robot or parameters that name one of some words."""
         pattern = re.compile("|".join(re.escape(word) for word in words))
         for file in self._files("*.launch"):
-            if any(pattern.search(text) for text in self._closure(file)):
+            if "gazebo" not in file.read_text(errors="replace"):
+                continue
+            plan = self._plan(file)
+            if plan and any(pattern.search(text) for text in self._texts(plan)):
                 yield file
+
+    def _plan(self, file: Path) -> LaunchPlan | None:
+        """Read a launch file; None if it needs arguments, or what is not here."""
+        source = self.base / "src"
+        packages = Packages({**self.environment, "ROS_PACKAGE_PATH": str(source)}, start=source)
+        try:
+            return read_launch(file, packages=packages, report=Diagnostics(), env=self.environment)
+        except (DescriptionError, OSError):
+            return None
+
+    def _texts(self, plan: LaunchPlan) -> Iterator[str]:
+        """Yield a launch's parameters, and the files that its commands and nodes name, with those that these name."""
+        if not any(node.package == "gazebo_ros" for node in plan.nodes):
+            return
+        lines = [node.arguments for node in plan.nodes]
+        for param in plan.params:
+            if isinstance(param.value, ParamCommand):
+                lines.append(param.value.line)
+            else:
+                yield str(param.value)
+        for word in re.split(r"[\s'\"]+", " ".join(lines)):
+            if word.startswith("/"):
+                yield from self._closure(Path(word))
 
     def descriptions_that_name(self, word: str) -> Iterator[Path]:
         """Yield worlds and robots that name a word."""
