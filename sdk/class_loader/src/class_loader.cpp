@@ -1,7 +1,9 @@
 #include "class_loader/class_loader.hpp"
+#include "class_loader/multi_library_class_loader.hpp"
 
 #include <dlfcn.h>
 
+#include <map>
 #include <mutex>
 #include <set>
 
@@ -18,6 +20,7 @@ struct Registry {
   std::recursive_mutex mutex;
   std::vector<Class> classes;
   std::set<std::string> loaded;
+  std::map<std::string, int> holders;
   std::string loading;
 };
 Registry& registry() {
@@ -75,10 +78,45 @@ void load(const std::string& library) {
   known.loaded.insert(library);
 }
 
-bool isLoaded(const std::string& library) {
+void hold(const std::string& library) {
   Registry& known = registry();
   const std::lock_guard<std::recursive_mutex> lock(known.mutex);
-  return known.loaded.count(library) > 0;
+  ++known.holders[library];
+}
+
+void release(const std::string& library) {
+  Registry& known = registry();
+  const std::lock_guard<std::recursive_mutex> lock(known.mutex);
+  if (known.holders[library] > 0) --known.holders[library];
+}
+
+bool isLibraryLoadedByAnybody(const std::string& library) {
+  Registry& known = registry();
+  const std::lock_guard<std::recursive_mutex> lock(known.mutex);
+  const auto found = known.holders.find(library);
+  return found != known.holders.end() && found->second > 0;
+}
+
+Loads::~Loads() {
+  if (count > 0) release(library);
+}
+
+void Loads::add() {
+  const std::lock_guard<std::recursive_mutex> lock(mutex);
+  load(library);
+  if (count++ == 0) hold(library);
+}
+
+int Loads::remove() {
+  const std::lock_guard<std::recursive_mutex> lock(mutex);
+  if (count > 0 && --count == 0) release(library);
+  return count;
+}
+
+void Loads::forgetObject() {
+  const std::lock_guard<std::recursive_mutex> lock(mutex);
+  if (--objects > 0 || !isOnDemand || hasUnmanaged) return;
+  while (remove() > 0) {}
 }
 
 }  // namespace impl
@@ -88,25 +126,48 @@ std::string systemLibrarySuffix() { return kSuffix; }
 std::string systemLibraryFormat(const std::string& library_name) { return "lib" + library_name + kSuffix; }
 
 ClassLoader::ClassLoader(const std::string& library_path, bool ondemand_load_unload)
-    : library_(library_path), is_on_demand_(ondemand_load_unload) {
-  if (!is_on_demand_) loadLibrary();
+    : loads_(std::make_shared<impl::Loads>(library_path, ondemand_load_unload)) {
+  if (!ondemand_load_unload) loadLibrary();
 }
 
-void ClassLoader::loadLibrary() {
-  impl::load(library_);
-  ++count_;
+void* ClassLoader::create(const std::string& class_name, const std::type_info& base, bool is_managed) {
+  const std::lock_guard<std::recursive_mutex> lock(loads_->mutex);
+  if (loads_->count == 0 && loads_->isOnDemand) loads_->add();
+  const impl::Create create =
+      loads_->count > 0 ? impl::findClass(loads_->library, class_name, base) : static_cast<impl::Create>(nullptr);
+  if (!create)
+    throw CreateClassException("Could not create instance of type " + class_name + " of " + loads_->library +
+                               (loads_->count > 0 ? "" : ", which is not loaded"));
+  void* const object = create();
+  if (is_managed) ++loads_->objects;
+  else loads_->hasUnmanaged = true;
+  return object;
 }
 
-int ClassLoader::unloadLibrary() {
-  if (count_ > 0) --count_;
-  return count_;
+void MultiLibraryClassLoader::loadLibrary(const std::string& library_path) {
+  if (loaders_.count(library_path) == 0)
+    loaders_[library_path] = std::make_shared<ClassLoader>(library_path, is_on_demand_);
 }
 
-void* ClassLoader::create(const std::string& class_name, const std::type_info& base) {
-  if (count_ == 0) loadLibrary();
-  const impl::Create create = impl::findClass(library_, class_name, base);
-  if (!create) throw CreateClassException("Could not create instance of type " + class_name + " of " + library_);
-  return create();
+int MultiLibraryClassLoader::unloadLibrary(const std::string& library_path) {
+  const auto found = loaders_.find(library_path);
+  if (found == loaders_.end()) return 0;
+  const int remaining = found->second->unloadLibrary();
+  if (remaining == 0) loaders_.erase(found);
+  return remaining;
+}
+
+std::vector<std::string> MultiLibraryClassLoader::getRegisteredLibraries() const {
+  std::vector<std::string> libraries;
+  for (const auto& entry : loaders_) libraries.push_back(entry.first);
+  return libraries;
+}
+
+ClassLoader& MultiLibraryClassLoader::loaderOf(const std::string& library_path) const {
+  const auto found = loaders_.find(library_path);
+  if (found == loaders_.end())
+    throw CreateClassException("no library " + library_path + " was loaded by this class loader");
+  return *found->second;
 }
 
 }  // namespace class_loader

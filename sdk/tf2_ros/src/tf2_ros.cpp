@@ -59,14 +59,21 @@ geometry_msgs::TransformStamped Buffer::lookupTransform(const std::string& targe
                                                         const std::string& source_frame, const ros::Time& source_time,
                                                         const std::string& fixed_frame,
                                                         const ros::Duration timeout) const {
-  waitFor(timeout,
-          [&] { return BufferCore::canTransform(target_frame, target_time, source_frame, source_time, fixed_frame); });
+  canTransform(target_frame, target_time, source_frame, source_time, fixed_frame, timeout);
   return lookupTransform(target_frame, target_time, source_frame, source_time, fixed_frame);
 }
 
 bool Buffer::canTransform(const std::string& target_frame, const std::string& source_frame, const ros::Time& time,
                           const ros::Duration timeout, std::string* errstr) const {
   return waitFor(timeout, [&] { return BufferCore::canTransform(target_frame, source_frame, time, errstr); });
+}
+
+bool Buffer::canTransform(const std::string& target_frame, const ros::Time& target_time,
+                          const std::string& source_frame, const ros::Time& source_time, const std::string& fixed_frame,
+                          const ros::Duration timeout, std::string* errstr) const {
+  return waitFor(timeout, [&] {
+    return BufferCore::canTransform(target_frame, target_time, source_frame, source_time, fixed_frame, errstr);
+  });
 }
 
 TransformListener::TransformListener(tf2::BufferCore& buffer, bool spin_thread, ros::TransportHints hints)

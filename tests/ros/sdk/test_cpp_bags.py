@@ -40,6 +40,7 @@ def test_a_written_bag_is_read_by_both(workspace: Path, tmp_path: Path, compress
     assert [" ".join(line.split()[2:]) for line in lines[:-2]] == [*_TEXTS, "late /writer"]
     assert lines[0].startswith("50.000000000 /text")
     assert lines[-2] == "sum 72.5 of 10", "numbers at 110 s … 119 s and 500 ns"
+    assert _run(workspace, "fast", str(file)) == "6 texts, 50 numbers to 160.000000000\n"
     assert lines[-1].startswith("all 222 from 50.000000000 to 1000.000000000 /number=std_msgs/Float64 /text=")
 
 

@@ -14,10 +14,13 @@ void registerClass(const char* class_name, const std::type_info& base, Create cr
 /** Function that creates a class of a library; null if there is none. "" is any library. */
 Create findClass(const std::string& library, const std::string& class_name, const std::type_info& base);
 std::vector<std::string> classNames(const std::string& library, const std::type_info& base);
-/** Load a library, whose classes register themselves. Throws LibraryLoadException. */
+/** Load a library, whose classes register themselves; it stays in memory. Throws LibraryLoadException. */
 void load(const std::string& library);
-/** True if a library was loaded by load(). It stays in memory, as objects of its classes may exist. */
-bool isLoaded(const std::string& library);
+/** Count a class loader that has loaded a library, or one that gave it back. */
+void hold(const std::string& library);
+void release(const std::string& library);
+/** True if a class loader has the library. */
+bool isLibraryLoadedByAnybody(const std::string& library);
 
 template <class Derived, class Base>
 void* create() {

@@ -26,6 +26,9 @@ class Buffer : public BufferInterface, public tf2::BufferCore {
                                                   const ros::Duration timeout) const override;
   bool canTransform(const std::string& target_frame, const std::string& source_frame, const ros::Time& time,
                     const ros::Duration timeout, std::string* errstr = nullptr) const override;
+  bool canTransform(const std::string& target_frame, const ros::Time& target_time, const std::string& source_frame,
+                    const ros::Time& source_time, const std::string& fixed_frame, const ros::Duration timeout,
+                    std::string* errstr = nullptr) const override;
   void setUsingDedicatedThread(bool) {}
 };
 

@@ -1,6 +1,8 @@
 // A server that counts; with an argument also its client, which prints a line for each check that fails.
+#include <actionlib/client/service_client.h>
 #include <actionlib/client/simple_action_client.h>
 #include <actionlib/client/terminal_state.h>
+#include <actionlib/server/service_server.h>
 #include <actionlib/server/simple_action_server.h>
 #include <cpp_actions/CountAction.h>
 #include <ros/ros.h>
@@ -87,6 +89,24 @@ void check() {
   CHECK(other.sendGoalAndWait(goal, ros::Duration(30.0)) == actionlib::SimpleClientGoalState::SUCCEEDED);
   CHECK(client.waitForResult(ros::Duration(30.0)));
   CHECK(client.getState() == actionlib::SimpleClientGoalState::PREEMPTED);
+  // The action as a service.
+  actionlib::ServiceClient service = actionlib::serviceClient<cpp_actions::CountAction>(ros::NodeHandle(), "count");
+  CHECK(service.waitForServer(ros::Duration(30.0)) && service.isServerConnected());
+  cpp_actions::CountResult result;
+  goal.order = 3;
+  CHECK(service.call(goal, result) && result.sequence.size() == 3);
+  CHECK(!service.call(result, result));
+  const actionlib::ServiceServer server = actionlib::advertiseService<cpp_actions::CountAction>(
+      ros::NodeHandle(), "half", [](const cpp_actions::CountGoal& asked, cpp_actions::CountResult& half) {
+        half.sequence.assign(1, asked.order / 2);
+        return asked.order >= 0;
+      });
+  actionlib::ServiceClient halves = actionlib::serviceClient<cpp_actions::CountAction>(ros::NodeHandle(), "half");
+  CHECK(halves.waitForServer(ros::Duration(30.0)));
+  goal.order = 8;
+  CHECK(halves.call(goal, result) && result.sequence.at(0) == 4);
+  goal.order = -1;
+  CHECK(!halves.call(goal, result));
   Client none("nothing");
   CHECK(!none.waitForServer(ros::Duration(0.2)) && !none.isServerConnected());
 }

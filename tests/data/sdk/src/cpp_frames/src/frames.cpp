@@ -5,6 +5,8 @@
 #include <tf2/LinearMath/Quaternion.h>
 #include <tf2/utils.h>
 #include <tf2_geometry_msgs/tf2_geometry_msgs.h>
+#include <tf2_ros/buffer_client.h>
+#include <tf2_ros/buffer_server.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
 
@@ -127,6 +129,36 @@ int main(int argc, char** argv) {
   CHECK(near(transform.getOrigin().y(), 2.0) && found.child_frame_id == "camera");
   const geometry_msgs::PoseStamped again = buffer.transform(ahead, "map", ros::Duration(1.0));
   CHECK(near(again.pose.position.y, 3.0));
+  const geometry_msgs::PoseStamped before =
+      buffer.transform(ahead, "camera", ros::Time(0), "map", ros::Duration(1.0));
+  CHECK(near(before.pose.position.x, 1.0) && before.header.frame_id == "camera");
+  // Another node asks for transforms by an action; what is wrong comes back as the exception.
+  tf2_ros::BufferServer server(buffer, "lookups");
+  tf2_ros::BufferClient client("lookups");
+  CHECK(client.waitForServer(ros::Duration(20.0)));
+  CHECK(near(client.lookupTransform("map", "camera", ros::Time(0)).transform.translation.y, 2.0));
+  CHECK(near(client.lookupTransform("map", ros::Time(0), "camera", ros::Time(0), "base").transform.translation.z, 0.5));
+  CHECK(client.canTransform("map", "base", ros::Time::now() + ros::Duration(0.1), ros::Duration(20.0)));
+  std::string reason;
+  CHECK(!client.canTransform("map", "nowhere", ros::Time(0), ros::Duration(0.1), &reason));
+  CHECK(reason.find("nowhere") != std::string::npos);
+  int codes = 0;
+  try {
+    client.lookupTransform("map", "nowhere", ros::Time(0));
+  } catch (const tf2::LookupException&) {
+    ++codes;
+  }
+  try {
+    client.lookupTransform("", "camera", ros::Time(0));
+  } catch (const tf2::InvalidArgumentException&) {
+    ++codes;
+  }
+  try {
+    client.lookupTransform("map", "base", ros::Time(1.0));
+  } catch (const tf2::ExtrapolationException&) {
+    ++codes;
+  }
+  CHECK(codes == 3);
   // A transform of the future is waited for.
   CHECK(listener.waitForTransform("map", "base", ros::Time::now() + ros::Duration(0.1), ros::Duration(20.0)));
   tf::StampedTransform foreign;
