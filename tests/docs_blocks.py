@@ -42,6 +42,8 @@ PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "ARCHITECTURE.md",
 COMMANDS = Path(os.environ.get("TRUNDLE_COMMANDS", Path(sys.executable).parent))
 """Folder of `trundle` and `python` for blocks."""
 _TIMEOUT_S = 900.0
+_MEANWHILE = re.compile(r"^(?:\d+ of \d+ .+, about .+ left|waiting for .+ since \d+ s)\n", re.MULTILINE)
+"""Lines that are printed only where something takes long."""
 _SLOW = re.compile(r"(---\n.*?\n---\n)?<!-- slow -->", re.DOTALL)
 _FENCE = re.compile(
     r"(?:^[ ]*<!-- (?P<mark>[^\n]+?) -->\n+)?"
@@ -160,7 +162,7 @@ def _run(command: list[str], page_folder: Folder, name: str, *, code: int = 0) -
 def _compare(output: str, expected: Block | None, name: str) -> None:
     if expected is not None:
         same = _NUMBER if expected.mark == "figures vary" else _NOTHING
-        wanted, printed = (same.sub("0", text) for text in (expected.text, output))
+        wanted, printed = (same.sub("0", text) for text in (expected.text, _MEANWHILE.sub("", output)))
         matches = OutputChecker().check_output(f"\n{wanted}", f"\n{printed}", ELLIPSIS)
         assert matches, f"{name} prints\n{output}\nand not\n{expected.text}"
 
