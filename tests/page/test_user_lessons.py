@@ -112,8 +112,9 @@ def test_lessons_are_listed_and_a_view_only_client_reads_no_other_file(
     reader = LessonUser(user, folder, {})
     reader.at("A <b>hostile</b> lesson")
     user.button("All lessons").click()
-    titles = user.page.locator(".lesson .choices .b").all_inner_texts()
-    assert titles == ["A <b>hostile</b> lesson", "A robot in SDF", "A car with roslaunch"]
+    choices = user.page.locator(".lesson .choices .b")
+    choices.nth(2).wait_for()
+    assert choices.all_inner_texts() == ["A <b>hostile</b> lesson", "A robot in SDF", "A car with roslaunch"]
     user.page.get_by_role("button", name="A robot in SDF").click()
     reader.at("A robot in SDF")
     reader.step.get_by_text("It starts by:").wait_for()
