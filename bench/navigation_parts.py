@@ -18,6 +18,7 @@ from trundle.navigation import _grids
 from trundle.navigation.costmap import circle
 from trundle.navigation.localization import _localization as localization
 from trundle.navigation.mapping import _mapping
+from trundle.navigation.planners.elastic_bands import _bands
 
 _REPEATS = 20
 _SIZE_M = 0.05
@@ -29,7 +30,7 @@ _PLACE = (2.5, 4.0, 0.3)
 
 def run() -> list[Row]:
     """Measure each part."""
-    return [_amcl(), _gmapping(), *_costmap(), _navfn(), _dwa()]
+    return [_amcl(), _gmapping(), *_costmap(), _navfn(), _dwa(), _teb()]
 
 
 def _cpu_ms(call: Callable[[], object], repeats: int = _REPEATS) -> float:
@@ -152,3 +153,20 @@ def _dwa() -> Row:
         _grids.score_rollouts(settings, maps, footprint, _PLACE, (0.2, 0.0, 0.0), targets)
 
     return Row("DWA: 800 trajectories of 1.7 s", _cpu_ms(choose), "ms", "", None)
+
+
+def _teb() -> Row:
+    """A band of 3 m through the door, begun anew."""
+    x = np.linspace(4.0, 7.0, 26)
+    path = np.stack([x, np.full(26, 3.45), np.zeros(26)], axis=1)
+    obstacles = (_bands.obstacle_outline(_costs()) + 0.5) * _SIZE_M
+    settings = _bands.BandSettings()
+    settings.min_obstacle_dist, settings.inflation_dist = 0.15, 0.4
+    body = _bands.RobotBody(np.array([[0.0, 0.0, 0.0, 0.0, 0.2]]), is_closed=False)
+
+    def optimize() -> None:
+        band = _bands.TimedBand()
+        band.set_path(path, settings)
+        assert math.isfinite(band.optimize(settings, body, obstacles, np.empty((0, 2)), velocity=(0.2, 0.0, 0.0)))
+
+    return Row("TEB: a band of 3 m through a door", _cpu_ms(optimize), "ms", "", None)

@@ -16,7 +16,7 @@ _OBSTACLES = {"name": "obstacles", "type": "costmap_2d::ObstacleLayer"}
 _INFLATION = {"name": "inflation", "type": "costmap_2d::InflationLayer"}
 
 
-def _parameters(**own: Any) -> dict[str, Any]:
+def parameters(**own: Any) -> dict[str, Any]:
     layers = {
         "obstacles": {"observation_sources": "scan", "scan": _SCAN},
         "inflation": {"inflation_radius": 0.3},
@@ -33,7 +33,7 @@ def _parameters(**own: Any) -> dict[str, Any]:
     }
 
 
-def _map() -> dict[str, Any]:
+def map_fields() -> dict[str, Any]:
     """Return a map of 4 m with a wall at x = 3, whose other side cannot be reached."""
     cells = np.zeros((_SIZE, _SIZE), np.int8)
     cells[:, 30] = 100
@@ -43,8 +43,8 @@ def _map() -> dict[str, Any]:
 
 def start(graph: Any, *, name: str = "move_base", ends: bool = False, **own: Any) -> Any:
     """Start move_base with the robot at 1.05, 1.05, and wait until it takes goals, unless it ends before."""
-    graph.set_params({f"/{name}": _parameters(**own)})
-    graph.advertise("/map", "nav_msgs/OccupancyGrid", latch=True).publish(_map())
+    graph.set_params({f"/{name}": parameters(**own)})
+    graph.advertise("/map", "nav_msgs/OccupancyGrid", latch=True).publish(map_fields())
     broadcaster = StaticTransformBroadcaster(graph.client)
     broadcaster.send_transform(Transform(parent="map", child="base_link", stamp_ns=0, translation=(1.05, 1.05, 0.0)))
     running = graph.start("move_base/move_base", name=name)
@@ -149,7 +149,7 @@ def test_recovery_behaviors_run_in_order_before_a_goal_is_given_up(graph: Any) -
 def test_a_scan_may_be_missing_no_longer_than_expected(graph: Any) -> None:
     """Without data, the robot is not driven."""
     late = {"observation_sources": "scan", "scan": {**_SCAN, "expected_update_rate": 0.01}}
-    local = {**_parameters()["local_costmap"], "obstacles": late}
+    local = {**parameters()["local_costmap"], "obstacles": late}
     start(graph, local_costmap=local)
     commands = graph.listen("/cmd_vel", "geometry_msgs/Twist")
     goals = graph.advertise("/move_base_simple/goal", "geometry_msgs/PoseStamped")
@@ -171,8 +171,8 @@ def test_a_scan_may_be_missing_no_longer_than_expected(graph: Any) -> None:
 def test_an_unknown_planner_ends_the_node_with_the_names_of_those_that_exist(
     graph: Any, name: str, error: str, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    graph.set_params({"/move_base": _parameters(**{name: "teb"})})
-    graph.advertise("/map", "nav_msgs/OccupancyGrid", latch=True).publish(_map())
+    graph.set_params({"/move_base": parameters(**{name: "teb"})})
+    graph.advertise("/map", "nav_msgs/OccupancyGrid", latch=True).publish(map_fields())
     broadcaster = StaticTransformBroadcaster(graph.client)
     broadcaster.send_transform(Transform(parent="map", child="base_link", stamp_ns=0))
 

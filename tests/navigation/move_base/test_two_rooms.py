@@ -62,8 +62,16 @@ def _clearance_m(x: float, y: float) -> float:
     ],
 )
 def test_a_goal_behind_a_door_is_reached_without_contact(planner: str, tmp_path: Path) -> None:
-    recorded = _drive(tmp_path, f"planner:={planner}")
+    _check(_drive(tmp_path, f"planner:={planner}"))
 
+
+@pytest.mark.slow
+def test_move_base_flex_drives_behind_the_legacy_relay(tmp_path: Path) -> None:
+    _check(_drive(tmp_path, "flex:=true"))
+
+
+def _check(recorded: dict[str, list[Any]]) -> None:
+    """Check that the goal was reached without contact."""
     statuses = [goal.status for message in recorded["/move_base/status"] for goal in message.status_list]
     track = [(m.pose.pose.position.x, m.pose.pose.position.y) for m in recorded["/base_pose_ground_truth"]]
     assert statuses[-1] == 3

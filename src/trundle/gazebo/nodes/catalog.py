@@ -64,6 +64,8 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("laser_scan_matcher", "laser_scan_matcher_node"): "trundle.navigation.scan_odometry:LaserScanMatcher",
     ("map_server", "map_saver"): "trundle.gazebo.nodes.map_server:MapSaver",
     ("map_server", "map_server"): "trundle.gazebo.nodes.map_server:MapServer",
+    ("mbf_costmap_nav", "mbf_costmap_nav"): "trundle.navigation.move_base_flex:MbfCostmapNav",
+    ("mbf_costmap_nav", "move_base_legacy_relay.py"): "trundle.navigation.move_base_flex:LegacyRelay",
     ("move_base", "move_base"): "trundle.navigation.move_base:MoveBase",
     ("moveit_ros_move_group", "move_group"): "trundle.planning.move_group:MoveGroup",
     ("nodelet", "nodelet"): "trundle.gazebo.nodes.nodelet:Nodelet",
