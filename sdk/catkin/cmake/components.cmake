@@ -57,6 +57,8 @@ endmacro()
 # Find a package as a component of catkin.
 macro(_trundle_use_component component)
   _trundle_read_component(${component})
+  # Never empty, as add_dependencies(program ${catkin_EXPORTED_TARGETS}) needs a second argument.
+  list(APPEND ${component}_EXPORTED_TARGETS ${component}_generate_messages_cpp)
   foreach(_trundle_kind INCLUDE_DIRS LIBRARIES EXPORTED_TARGETS)
     list(APPEND catkin_${_trundle_kind} ${${component}_${_trundle_kind}})
     if(catkin_${_trundle_kind})

@@ -40,6 +40,13 @@ foreach(_trundle_library thread chrono filesystem system)
 endforeach()
 list(APPEND GAZEBO_LIBRARIES ${_trundle_boost} Threads::Threads)
 
+# Libraries that plugins link with for base classes; the kit has these in headers alone.
+foreach(_trundle_name CameraPlugin ContactPlugin DepthCameraPlugin GpuRayPlugin RayPlugin)
+  if(NOT TARGET ${_trundle_name})
+    add_library(${_trundle_name} INTERFACE IMPORTED)
+  endif()
+endforeach()
+
 set(GAZEBO_FOUND TRUE)
 set(gazebo_FOUND TRUE)
 set(GAZEBO_VERSION 11.0.0)
