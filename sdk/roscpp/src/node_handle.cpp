@@ -17,6 +17,8 @@ namespace {
 std::mutex counting;
 int handle_count = 0;
 bool is_started_by_handle = false;
+/** The last handle ended the node, and the next one starts it again; after shutdown(), init() comes first. */
+bool is_ended_by_handle = false;
 
 }  // namespace
 
@@ -121,6 +123,7 @@ NodeHandle::~NodeHandle() {
   {
     const std::lock_guard<std::mutex> lock(counting);
     is_last = --handle_count == 0 && is_started_by_handle;
+    if (is_last && ros::isStarted() && !ros::isShuttingDown()) is_ended_by_handle = true;
   }
   if (is_last) ros::shutdown();
 }
@@ -135,7 +138,8 @@ void NodeHandle::construct(const std::string& ns) {
   bool starts = false;
   {
     const std::lock_guard<std::mutex> lock(counting);
-    starts = handle_count++ == 0 && !ros::isStarted() && !ros::isShuttingDown();
+    starts = handle_count++ == 0 && !ros::isStarted() && (is_ended_by_handle || !ros::isShuttingDown());
+    if (starts) is_ended_by_handle = false;
     is_started_by_handle |= starts;
   }
   if (starts) ros::start();

@@ -374,6 +374,11 @@ void checkAll(int argc, char** argv) {
 int main(int argc, char** argv) {
   ros::init(argc, argv, "checks");
   checkAll(argc, argv);
+  CHECK(!ros::ok());  // the last handle has ended the node
+  {
+    const ros::NodeHandle another;
+    CHECK(another.ok());
+  }
   checkSecondLife(argc, argv);
   std::cout << made << " checks, " << failed << " failed" << std::endl;
   return failed == 0 ? 0 : 1;
