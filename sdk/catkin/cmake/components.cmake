@@ -56,6 +56,7 @@ endmacro()
 
 # Find a package as a component of catkin.
 macro(_trundle_use_component component)
+  set(catkin_LIBRARY_DIRS "${TRUNDLE_KIT}/lib" "${CATKIN_DEVEL_PREFIX}/lib")
   _trundle_read_component(${component})
   # Never empty, as add_dependencies(program ${catkin_EXPORTED_TARGETS}) needs a second argument.
   list(APPEND ${component}_EXPORTED_TARGETS ${component}_generate_messages_cpp)

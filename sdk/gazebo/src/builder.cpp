@@ -102,6 +102,7 @@ void Builder::RemoveModel(const WorldPtr& world, const std::string& name) {
       animated.erase(std::remove_if(animated.begin(), animated.end(),
                                     [&](const EntityPtr& e) { return e->GetParentModel() == world->models_[i]; }),
                      animated.end());
+      for (const LinkPtr& link : world->models_[i]->links_) link->SetGravityMode(link->written_gravity_);
       world->models_.erase(world->models_.begin() + static_cast<std::ptrdiff_t>(i));
       return;
     }
@@ -114,7 +115,7 @@ LinkPtr Builder::AddLink(const ModelPtr& model, const sdf::ElementPtr& sdf) {
   link->sdf_ = sdf;
   link->initial_ = pose_of(sdf);
   link->is_static_ = model->is_static_;
-  link->gravity_ = sdf->Get<bool>("gravity", true).first;
+  link->gravity_ = link->written_gravity_ = sdf->Get<bool>("gravity", true).first;
   link->self_collide_ = sdf->Get<bool>("self_collide");
   link->kinematic_ = sdf->Get<bool>("kinematic");
   link->inertial_ = boost::make_shared<Inertial>(inertial_of(sdf));

@@ -5,6 +5,8 @@ namespace event {
 
 EventT<void(std::string)> Events::addEntity;
 EventT<void(std::string)> Events::deleteEntity;
+EventT<void(std::string)> Events::worldCreated;
+EventT<void()> Events::preRender;
 EventT<void(const common::UpdateInfo&)> Events::worldUpdateBegin;
 EventT<void(const common::UpdateInfo&)> Events::beforePhysicsUpdate;
 EventT<void()> Events::worldUpdateEnd;

@@ -167,8 +167,14 @@ std::string load_plugin(OpenWorld& open, LoadedPlugin& loaded, void* library, co
     }
     case SYSTEM_PLUGIN: {
       SystemPlugin* plugin = hold<SystemPlugin>(loaded, make(), file, name);
-      plugin->Load(0, nullptr);
+      static char program[] = "gzserver";
+      static char* arguments[] = {program, nullptr};
+      plugin->Load(1, arguments);
       plugin->Init();
+      const event::internal::Owner owner = {name, open.world.get(), &open.host};
+      for (const physics::ModelPtr& model : open.world->Models())
+        event::Events::addEntity.SignalTo(owner, model->GetName());
+      event::Events::worldCreated.SignalTo(owner, open.world->Name());
       return "";
     }
     default: return "it is a plugin of a visual or of the window, which are not run in C++";

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gazebo/common/Console.hh>
 #include <gazebo/physics/physics.hh>
 
@@ -11,6 +13,7 @@ Link::Link(EntityPtr parent)
     : Entity(parent),
       number_(-1),
       gravity_(true),
+      written_gravity_(true),
       self_collide_(false),
       kinematic_(false),
       warned_(false),
@@ -79,6 +82,18 @@ Pose3d Link::WorldCoGPose() const { return Pose3d(WorldPose().CoordPositionAdd(i
 ignition::math::Matrix3d Link::WorldInertiaMatrix() const {
   const ignition::math::Matrix3d rotation(WorldInertialPose().Rot());
   return rotation * inertial_->MOI() * rotation.Transposed();
+}
+
+void Link::SetGravityMode(bool is_on) {
+  gravity_ = is_on;
+  Link_V& changed = world_->weight_changes_;
+  const LinkPtr self = boost::static_pointer_cast<Link>(shared_from_this());
+  changed.erase(std::remove(changed.begin(), changed.end(), self), changed.end());
+  if (gravity_ != written_gravity_) changed.push_back(self);
+}
+
+void Link::ChangeWeight() {
+  AddWrench(world_->Gravity() * (gravity_ ? inertial_->Mass() : -inertial_->Mass()), Vector3d::Zero);
 }
 
 bool Link::Twist(double (&v)[6]) const {

@@ -41,7 +41,7 @@ void Sensor::Take(const void* world, int64_t time_ns, const TrundleGazeboReading
     Set(reading);
   }
   Tell(world);
-  updated_.SignalIn(world);
+  if (IsComplete()) updated_.SignalIn(world);
 }
 
 void RaySensor::Read(const sdf::ElementPtr& sdf) {
@@ -206,6 +206,22 @@ void CameraSensor::Read(const sdf::ElementPtr& sdf) {
   camera_->Read(ScopedName(), sdf->FindElement("camera"), UpdateRate());
 }
 
+void MultiCameraSensor::Read(const sdf::ElementPtr& sdf) {
+  for (sdf::ElementPtr e = sdf->FindElement("camera"); e; e = e->GetNextElement("camera")) {
+    cameras_.push_back(rendering::CameraPtr(new rendering::Camera));
+    cameras_.back()->Read(e->Get<std::string>("name"), e, UpdateRate());
+  }
+}
+
+void MultiCameraSensor::Set(const TrundleGazeboReading& reading) {
+  last_set_ = reading.count == 1 ? static_cast<std::size_t>(reading.values[0]) : cameras_.size();
+  if (last_set_ < cameras_.size()) cameras_[last_set_]->Set(reading, last_);
+}
+
+void MultiCameraSensor::Tell(const void* world) {
+  if (last_set_ < cameras_.size()) cameras_[last_set_]->Tell(world);
+}
+
 namespace {
 
 struct Made {
@@ -220,6 +236,7 @@ SensorPtr make(const std::string& type) {
   if (type == "ray") return std::make_shared<RaySensor>();
   if (type == "gpu_ray") return std::make_shared<GpuRaySensor>();
   if (type == "camera") return std::make_shared<CameraSensor>();
+  if (type == "multicamera") return std::make_shared<MultiCameraSensor>();
   if (type == "depth") return std::make_shared<DepthCameraSensor>();
   if (type == "imu") return std::make_shared<ImuSensor>();
   if (type == "contact") return std::make_shared<ContactSensor>();

@@ -109,6 +109,8 @@ void World::BeforeStep(int64_t time_ns, int64_t real_ns) {
       controller->Update();
     }
   event::Events::beforePhysicsUpdate.SignalIn(this, update_info_);
+  event::Events::preRender.SignalIn(this);
+  for (const LinkPtr& link : weight_changes_) link->ChangeWeight();
   ConnectJoints();
 }
 

@@ -2,11 +2,12 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from itertools import chain, count
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from types import MappingProxyType
 from typing import TYPE_CHECKING, TypeVar
 
-from trundle.base.diagnostics import DescriptionError, Diagnostics, TrundleError
+from trundle.base.diagnostics import DescriptionError, Diagnostics, Source, TrundleError
+from trundle.base.xmlnode import parse_xml
 from trundle.gazebo.plugins import (
     Hooks,
     Plugin,
@@ -129,6 +130,40 @@ def load_world_plugins(
         )
 
 
+def load_server_plugins(
+    simulation: "Simulation",
+    files: Sequence[str],
+    make_node: "Callable[[str], Node] | None",
+    environment: Mapping[str, str],
+    *,
+    log: Callable[[str], None],
+) -> None:
+    """Load plugins of the system, which `gzserver -s` names by their libraries; see `load_plugins`."""
+    for file in files:
+        at = Source(f"gzserver -s {file}")
+        name = PurePosixPath(file).stem.removeprefix("lib")
+        tag = PluginTag(name=name, filename=file, at=at, node=parse_xml("<plugin/>", name=at.file))
+
+        def load(tag: PluginTag = tag) -> Hooks:
+            library = plugin_library(tag, environment)
+            if library is None:
+                raise DescriptionError(
+                    tag.at,
+                    f"there is no library {tag.filename} that was compiled with Trundle's kit; it is searched here, in "
+                    "build, along GAZEBO_PLUGIN_PATH and LD_LIBRARY_PATH, and in devel/lib of the workspace",
+                    "compiled-plugin",
+                )
+            from .plugins.compiled import compiled_world_plugin  # lazy: most worlds have none
+
+            log(f"server plugin {tag.name!r}: {library}, in C++")
+            node = None if make_node is None else make_node(f"/{ros_name(tag.name)}")
+            return compiled_world_plugin(library).load(simulation, node, tag)
+
+        plugin = _load_or_warn(tag, load, simulation.report)
+        if plugin is not None:
+            _add_hooks(simulation, plugin, None, tag.name)
+
+
 _Sensor = TypeVar("_Sensor", "CameraSensor", "InstrumentSensor")
 
 
@@ -152,6 +187,8 @@ def attach_sensor_plugins(
     report, models = simulation.report, [model.model for model in simulation.models]
 
     silent: list[_Sensor] = []
+    compiled: dict[int, bool] = {}
+    """Tag → whether its plugin was loaded: cameras of a multicamera share one."""
     for sensor in sensors:
         attached_count = 0
         plugins = [(tag, find_sensor_plugin(tag)) for tag in sensor.sensor.plugins]
@@ -159,7 +196,9 @@ def attach_sensor_plugins(
         for tag, attach in (*plugins, *(pair for pair in model_plugins if pair[1] is not None)):
             library = plugin_library(tag, environment) if tag in sensor.sensor.plugins else None
             if library is not None:
-                attached_count += _attach_compiled(library, tag, sensor, node, simulation)
+                if id(tag) not in compiled:
+                    compiled[id(tag)] = _attach_compiled(library, tag, sensor, node, simulation)
+                attached_count += compiled[id(tag)]
                 continue
             if attach is None:
                 _warn_unsupported(sensor.name, tag, report)

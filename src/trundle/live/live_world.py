@@ -1,10 +1,10 @@
 """A running world whose models are spawned and deleted with their sensors, plugins, topics and nodes."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from trundle.gazebo.model_plugins import load_plugins, load_world_plugins
+from trundle.gazebo.model_plugins import load_plugins, load_server_plugins, load_world_plugins
 from trundle.page.shown_world import has_sensors_or_plugins
 from trundle.robots.packages import Packages
 from trundle.sim.simulation import ModelHandle, Simulation
@@ -104,13 +104,18 @@ class LiveWorld:
         for model in self.simulation.models:
             self._advertise(model)
 
-    def load_plugins(self) -> None:
-        """Load the plugins of the world and of its models, and from now on those of spawned models."""
+    def load_plugins(self, server_plugins: Sequence[str] = ()) -> None:
+        """Load the plugins of the world and of its models, and from now on those of spawned models.
+
+        Args:
+            server_plugins: libraries of plugins of the system, which are loaded before the others.
+        """
         self._loads_plugins = True
+        make_world_node = None if self._interfaces is None else self._interfaces.node_maker(None)
+        load_server_plugins(self.simulation, server_plugins, make_world_node, self.environment, log=self._say)
         for model in self.simulation.models:
             self._load_plugins_of(model)
-        make_node = None if self._interfaces is None else self._interfaces.node_maker(None)
-        load_world_plugins(self.simulation, make_node, self.environment, log=self._say)
+        load_world_plugins(self.simulation, make_world_node, self.environment, log=self._say)
 
     def keep_timeline(self, limit_bytes: int) -> None:
         """Record the last minutes, for seeking; `limit_bytes` is the memory of the saved states."""

@@ -86,7 +86,14 @@ class Simulator(Protocol):
         ...
 
     async def open(
-        self, node: Node, world: str, *, paused: bool, env: Mapping[str, str], record: str | None = None
+        self,
+        node: Node,
+        world: str,
+        *,
+        paused: bool,
+        env: Mapping[str, str],
+        record: str | None = None,
+        server_plugins: Sequence[str] = (),
     ) -> None:
         """Load a world, with time paused until `begin`.
 
@@ -96,6 +103,7 @@ class Simulator(Protocol):
             paused: True: start paused.
             env: additional environment, such as GAZEBO_MODEL_PATH.
             record: folder of state logs, "" for the default; None: no logs.
+            server_plugins: libraries of plugins of the system.
 
         Raises:
             TrundleError: the world is missing or invalid, or another one is open.

@@ -1,7 +1,7 @@
 """World behind /gazebo, into which models are spawned from texts."""
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from msgspec.structs import replace
@@ -82,8 +82,8 @@ class GazeboContents:
         self.live = LiveWorld(simulation, packages=packages, environment=env, say=say, renderer=renderer)
         self._recorder: WorldRecorder | None = None
 
-    def load(self, record: Path | None) -> None:
-        """Start state logs in a folder (None: without), sensors and plugins."""
+    def load(self, record: Path | None, server_plugins: Sequence[str]) -> None:
+        """Start state logs in a folder (None: without), sensors and plugins, those of the server first."""
         live, simulation = self.live, self.live.simulation
         if record is not None:
             self._recorder = WorldRecorder(simulation, record / "state.log", self._say)
@@ -91,7 +91,7 @@ class GazeboContents:
         live.start_sensors()
         broadcaster = StaticTransformBroadcaster(self._node)
         live.join_graph(ModelInterfaces(self._node, broadcaster, simulation, self._make_node))
-        live.load_plugins()
+        live.load_plugins(server_plugins)
 
     def _make_node(self, name: str) -> Node:
         graph, simulation = self._graph, self.live.simulation

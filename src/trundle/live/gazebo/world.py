@@ -81,6 +81,7 @@ class GazeboWorld:
         self._timeline_mb = timeline_mb
         self._request_reload = reload
         self._file = ""
+        self._server_plugins: Sequence[str] = ()
         self._spawned: dict[str, Callable[[], None]] = {}
         """Spawned model → function that spawns it again."""
         self._respawns: list[Callable[[], None]] | None = None
@@ -94,9 +95,17 @@ class GazeboWorld:
     # -- any thread
 
     async def open(
-        self, node: Node, world: str, *, paused: bool, env: Mapping[str, str], record: str | None = None
+        self,
+        node: Node,
+        world: str,
+        *,
+        paused: bool,
+        env: Mapping[str, str],
+        record: str | None = None,
+        server_plugins: Sequence[str] = (),
     ) -> None:
         """Read a world; `begin` lets its time advance."""
+        self._server_plugins = server_plugins
         with self._graph.loop.work.pending(f"the world {world}"):
             await self._open(node, world, paused=paused, env=env, record=record)
 
@@ -276,7 +285,7 @@ class GazeboWorld:
             is_lockstep=self._stepper.is_lockstep,
         )
         self._stepper.clock = self._contents.clock
-        self._contents.load(logs)
+        self._contents.load(logs, self._server_plugins)
         self._spawned.clear()
         respawns, self._respawns = self._respawns, None
         if respawns is not None:

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <gazebo/common/common.hh>
 #include <gazebo/gazebo.hh>
@@ -26,6 +27,12 @@ class Sense : public SensorPlugin {
         picture_ = std::to_string(width) + "x" + std::to_string(height) + " " + format + " " +
                    (middle[0] > 2 * middle[depth - 1] ? "red" : "other");
       });
+    if (auto cameras = std::dynamic_pointer_cast<sensors::MultiCameraSensor>(sensor))
+      for (unsigned int i = 0; i < cameras->CameraCount(); ++i)
+        images_.push_back(cameras->Camera(i)->ConnectNewImageFrame(
+            [this, i](const unsigned char*, unsigned int, unsigned int, unsigned int, const std::string&) {
+              order_ += std::to_string(i);
+            }));
     if (auto depth = std::dynamic_pointer_cast<sensors::DepthCameraSensor>(sensor))
       depths_ = depth->DepthCamera()->ConnectNewDepthFrame(
           [this](const float* depths, unsigned int width, unsigned int height, unsigned int, const std::string&) {
@@ -68,6 +75,14 @@ class Sense : public SensorPlugin {
           force += contacts.contact(i).wrench(k).body_1_wrench().force().z();
       std::snprintf(text, sizeof(text), "%.1f N with %s", force,
                     contacts.contact_size() ? contacts.contact(0).collision2().c_str() : "nothing");
+    } else if (auto cameras = std::dynamic_pointer_cast<sensors::MultiCameraSensor>(sensor_)) {
+      std::string seen = order_.substr(order_.size() - 2);
+      for (unsigned int i = 0; i < cameras->CameraCount(); ++i) {
+        const std::size_t middle = (cameras->ImageHeight(i) / 2 * cameras->ImageWidth(i) + cameras->ImageWidth(i) / 2) * 3;
+        const unsigned char* color = cameras->ImageData(i) + middle;
+        seen += " " + cameras->Camera(i)->Name() + (color[0] > 2 * color[2] ? " red" : " other");
+      }
+      return seen;
     } else if (sensor_->Type() == "depth")
       std::snprintf(text, sizeof(text), "%s, depth %.2f", picture_.c_str(), depth_);
     else if (sensor_->Type() == "camera") std::snprintf(text, sizeof(text), "%s", picture_.c_str());
@@ -75,13 +90,14 @@ class Sense : public SensorPlugin {
   }
 
   sensors::SensorPtr sensor_;
-  std::string word_, picture_;
+  std::string word_, picture_, order_;
   float depth_ = 0.0f;
   int scanned_ = 0;
   bool is_told_ = false;
   transport::NodePtr node_;
   transport::SubscriberPtr scans_;
   event::ConnectionPtr updated_, image_, depths_;
+  std::vector<event::ConnectionPtr> images_;
 };
 
 GZ_REGISTER_SENSOR_PLUGIN(Sense)

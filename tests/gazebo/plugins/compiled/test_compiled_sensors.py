@@ -19,14 +19,18 @@ _SOURCE = Path(__file__).parents[3] / "data/gazebo_plugins/sense"
 _WAIT_S = 600
 
 
-def _run(*words: str, cwd: Path, **variables: str) -> str:
+def _environment(cwd: Path, **variables: str) -> dict[str, str]:
     path = os.pathsep.join([sysconfig.get_path("scripts"), os.environ["PATH"]])
     left_out = ("GAZEBO_PLUGIN_PATH", "CMAKE_PREFIX_PATH", "LD_LIBRARY_PATH", "ROS_MASTER_URI")
     kept = {name: value for name, value in os.environ.items() if name not in left_out}
+    return {**kept, "PATH": path, "PWD": str(cwd), **variables}
+
+
+def _run(*words: str, cwd: Path, **variables: str) -> str:
     done = subprocess.run(
         [sys.executable, "-m", "trundle", *words],
         cwd=cwd,
-        env={**kept, "PATH": path, "PWD": str(cwd), **variables},
+        env=_environment(cwd, **variables),
         capture_output=True,
         text=True,
         check=False,
@@ -36,21 +40,26 @@ def _run(*words: str, cwd: Path, **variables: str) -> str:
     return done.stdout + done.stderr
 
 
-def test_each_kind_of_sensor_gives_its_readings(tmp_path: Path) -> None:
-    """A red wall 1.8 m ahead of a box of 2 kg; a box that SetCollideMode lets fall, though a model comes."""
+@pytest.fixture(scope="module")
+def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of the world, with its compiled plugins."""
     try:
         find_toolchain(os.environ)
     except UsageError as error:
         pytest.skip(str(error))
-    folder = tmp_path / "sense"
+    folder = tmp_path_factory.mktemp("plugins") / "sense"
     shutil.copytree(_SOURCE, folder)
     _run("shell", "-c", "cmake -S . -B build && cmake --build build", cwd=folder)
+    return folder
 
+
+def test_each_kind_of_sensor_gives_its_readings(built: Path) -> None:
+    """A red wall 1.8 m ahead of a box of 2 kg; a box that SetCollideMode lets fall, though a model comes."""
     with running_graph() as graph:
         words = ("run", "sense.world", "--headless", "--duration", "1", "--speed", "max")
-        output = _run(*words, cwd=folder, ROS_MASTER_URI=graph.core.uri)
+        output = _run(*words, cwd=built, ROS_MASTER_URI=graph.core.uri)
 
-    assert re.search(rf"plugin '\w+' of \S*box::body::lidar: {folder}/build/lib\w+\.so, in C\+\+\n", output), output
+    assert re.search(rf"plugin '\w+' of \S*box::body::lidar: {built}/build/lib\w+\.so, in C\+\+\n", output), output
     seen = dict(re.findall(r"seen (\w+) of box::body: (.*)", output))
     assert seen == {
         "lidar": "5 rays from -0.20 to 0.20, middle 1.800, topic 5",
@@ -60,6 +69,7 @@ def test_each_kind_of_sensor_gives_its_readings(tmp_path: Path) -> None:
         "bumper": seen.get("bumper", "nothing"),
         "eye": "64x48 R8G8B8 red",
         "deep": "64x48 R8G8B8 red, depth 1.80",
+        "eyes": "01 left red right other",
     }, output
     assert re.fullmatch(r"1\.\d\d of 5\.0", seen["sonar"])
     force = re.fullmatch(r"(\d+\.\d) N with ground_plane::link::collision", seen["bumper"])
@@ -68,3 +78,33 @@ def test_each_kind_of_sensor_gives_its_readings(tmp_path: Path) -> None:
     fallen = re.search(r"ghost stands at x \S+, y \S+, z (\S+)", output)
     assert fallen is not None, output
     assert float(fallen[1]) == pytest.approx(0.5 - 9.8 * 0.8**2 / 2, abs=0.05)
+
+
+def test_gzserver_loads_a_plugin_of_the_system_before_the_others(built: Path) -> None:
+    with running_graph() as graph:
+        command = [sys.executable, "-m", "trundle", "--as", "gzserver", "-s", "libwatch.so", "-s", "libnone.so"]
+        process = subprocess.Popen(
+            [*command, "sense.world"],
+            cwd=built,
+            env=_environment(built, ROS_MASTER_URI=graph.core.uri),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
+        assert process.stdout is not None
+        lines: list[str] = []
+        for line in process.stdout:
+            lines.append(line)
+            if "watched step 100" in line:
+                break
+        process.terminate()
+        lines += process.communicate(timeout=_WAIT_S)[0].splitlines(keepends=True)
+
+    output = "".join(lines)
+    assert "watched gzserver: world room with ground_plane wall box feather ghost" in output
+    assert (
+        "gzserver -s libnone.so: warning: there is no library libnone.so that was compiled with Trundle's kit" in output
+    )
+    # A body that weighs nothing until the 90th step.
+    assert "watched step 100 at 0.099, 99 draws, feather 1.9995" in output
+    assert output.index("watched gzserver") < output.index("plugin 'through'")

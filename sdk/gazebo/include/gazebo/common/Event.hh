@@ -91,21 +91,9 @@ class EventT<void(Args...)> : public Event {
   unsigned int ConnectionCount() const { return static_cast<unsigned int>(slots_.size()); }
 
   // Call the functions that plugins of a world connected; one that throws is disconnected.
-  void SignalIn(const void* world, Args... args) {
-    signaled_ = true;
-    for (std::size_t i = 0;; ++i) {
-      const std::shared_ptr<Slot> slot = At(i);
-      if (!slot) return;
-      if (!slot->is_on || (slot->owner.world && slot->owner.world != world)) continue;
-      const internal::Running running(slot->owner);
-      try {
-        slot->function(args...);
-      } catch (...) {
-        internal::ReportException(slot->owner);
-        slot->is_on = false;
-      }
-    }
-  }
+  void SignalIn(const void* world, Args... args) { Call(world, nullptr, args...); }
+  // The same for one of the plugins alone.
+  void SignalTo(const internal::Owner& owner, Args... args) { Call(owner.world, owner.plugin, args...); }
   void Signal(Args... args) { SignalIn(internal::CurrentOwner().world, args...); }
   void operator()(Args... args) { Signal(args...); }
 
@@ -116,6 +104,23 @@ class EventT<void(Args...)> : public Event {
     internal::Owner owner;
     bool is_on;
   };
+  // plugin: name of the plugin whose functions are called; null: those of all.
+  void Call(const void* world, const char* plugin, Args... args) {
+    signaled_ = true;
+    for (std::size_t i = 0;; ++i) {
+      const std::shared_ptr<Slot> slot = At(i);
+      if (!slot) return;
+      if (!slot->is_on || (slot->owner.world && slot->owner.world != world)) continue;
+      if (plugin && slot->owner.plugin != plugin) continue;
+      const internal::Running running(slot->owner);
+      try {
+        slot->function(args...);
+      } catch (...) {
+        internal::ReportException(slot->owner);
+        slot->is_on = false;
+      }
+    }
+  }
   std::shared_ptr<Slot> At(std::size_t index) {
     const std::lock_guard<std::mutex> lock(mutex_);
     return index < slots_.size() ? slots_[index] : std::shared_ptr<Slot>();

@@ -1,4 +1,4 @@
-// Events of the simulation; those of rendering and of the window do not exist.
+// Events of the simulation; those of the window do not exist.
 #ifndef GAZEBO_COMMON_EVENTS_HH_
 #define GAZEBO_COMMON_EVENTS_HH_
 
@@ -25,6 +25,22 @@ class Events {
   }
   static void DisconnectDeleteEntity(ConnectionPtr connection) { deleteEntity.Disconnect(connection); }
   static EventT<void(std::string)> deleteEntity;
+
+  // Called in plugins of the system alone, which are loaded before the others; with the world's name.
+  template <typename T>
+  static ConnectionPtr ConnectWorldCreated(T subscriber) {
+    return worldCreated.Connect(subscriber);
+  }
+  static void DisconnectWorldCreated(ConnectionPtr connection) { worldCreated.Disconnect(connection); }
+  static EventT<void(std::string)> worldCreated;
+
+  // Before the cameras may draw, at each step: a function may activate one.
+  template <typename T>
+  static ConnectionPtr ConnectPreRender(T subscriber) {
+    return preRender.Connect(subscriber);
+  }
+  static void DisconnectPreRender(ConnectionPtr connection) { preRender.Disconnect(connection); }
+  static EventT<void()> preRender;
 
   template <typename T>
   static ConnectionPtr ConnectWorldUpdateBegin(T subscriber) {

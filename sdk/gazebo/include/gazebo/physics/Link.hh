@@ -30,6 +30,7 @@ class Link : public Entity {
   // `world::model::link::sensor`
   std::string GetSensorName(unsigned int index) const;
   bool GetGravityMode() const { return gravity_; }
+  void SetGravityMode(bool is_on);
   bool GetSelfCollide() const { return self_collide_; }
   bool GetKinematic() const { return kinematic_; }
   bool GetEnabled() const { return true; }
@@ -107,13 +108,15 @@ class Link : public Entity {
   void AddWrench(const ignition::math::Vector3d& force, const ignition::math::Vector3d& torque);
   bool Twist(double (&values)[6]) const;
   void EndStep(double step_s);
+  // Add or take the weight of a link whose mode is not that of its file, for the coming step.
+  void ChangeWeight();
 
   int number_;
   InertialPtr inertial_;
   Collision_V collisions_;
   Joint_V parent_joints_, child_joints_;
   std::vector<std::string> sensor_names_, attached_;
-  bool gravity_, self_collide_, kinematic_, warned_;
+  bool gravity_, written_gravity_, self_collide_, kinematic_, warned_;
   mutable bool wants_acceleration_;
   bool has_last_twist_;
   ignition::math::Vector3d force_, torque_, last_linear_, last_angular_, linear_accel_, angular_accel_;

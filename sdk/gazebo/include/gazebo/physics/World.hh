@@ -88,6 +88,7 @@ class World : public boost::enable_shared_from_this<World> {
   friend struct Builder;
   friend class Entity;
   friend class Joint;
+  friend class Link;
   friend class PhysicsEngine;
   void Animate();
   std::string name_;
@@ -96,6 +97,8 @@ class World : public boost::enable_shared_from_this<World> {
   Model_V models_;
   Joint_V made_joints_;
   Entity_V animated_;
+  // Whose weight is added or taken before each step.
+  Link_V weight_changes_;
   common::SphericalCoordinatesPtr spherical_coordinates_;
   common::Time real_time_, start_time_;
   common::UpdateInfo update_info_;

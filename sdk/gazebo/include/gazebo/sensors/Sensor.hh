@@ -80,6 +80,8 @@ class Sensor : public std::enable_shared_from_this<Sensor> {
   virtual void Set(const TrundleGazeboReading&) {}
   // Tell of a reading: to topics, and to functions that get its data.
   virtual void Tell(const void*) {}
+  // False: more readings of the same time follow.
+  virtual bool IsComplete() const { return true; }
   template <typename M>
   static double Number(const M& sdf, const char* name, double missing) {
     return sdf ? sdf->template Get<double>(name, missing).first : missing;

@@ -27,6 +27,7 @@ typedef std::shared_ptr<RaySensor> RaySensorPtr;
 typedef std::shared_ptr<GpuRaySensor> GpuRaySensorPtr;
 typedef std::shared_ptr<CameraSensor> CameraSensorPtr;
 typedef std::shared_ptr<DepthCameraSensor> DepthCameraSensorPtr;
+typedef std::shared_ptr<MultiCameraSensor> MultiCameraSensorPtr;
 typedef std::shared_ptr<ImuSensor> ImuSensorPtr;
 typedef std::shared_ptr<ContactSensor> ContactSensorPtr;
 typedef std::shared_ptr<GpsSensor> GpsSensorPtr;

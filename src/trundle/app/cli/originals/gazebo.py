@@ -20,7 +20,6 @@ _SERVER = "gzserver"
 _UNSUPPORTED = {
     "iters": "a number of iterations",
     "seed": "a seed",
-    "server_plugin": "a server plugin",
     "gui_plugin": "a plugin of the window",
     "initial_sim_time": "an initial time",
 }
@@ -37,7 +36,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add("-r", "--record", action="store_true", help="write a state log")
     add("--record_path", metavar="DIR", help="folder of the state log")
     add("-p", "--play", metavar="FILE", help="play a state log")
-    add("-s", "--server-plugin", action="append", default=[], help=argparse.SUPPRESS)
+    server_plugin = "load a plugin of the system, compiled with the development kit"
+    add("-s", "--server-plugin", action="append", default=[], metavar="LIBRARY", help=server_plugin)
     add("-g", "--gui-plugin", action="append", default=[], help=argparse.SUPPRESS)
     for option in ("--seed", "--iters", "--initial_sim_time"):
         add(option, help=argparse.SUPPRESS)
@@ -62,6 +62,7 @@ def main(args: argparse.Namespace) -> int:
                 print(f"{args.program}: {description} ({name}) is not supported, and ignored", file=sys.stderr)
     words = parse_arguments([args.world, *args.remappings]).rest
     options = ["-u"] if args.pause else []
+    options += [f"--server-plugin={name}" for name in args.server_plugin]
     options += ["--record_path", args.record_path] if args.record_path else ["-r"] if args.record else []
     with quiet_imports():
         from trundle.live.gazebo.standalone import run_gazebo

@@ -2,6 +2,7 @@
 
 import asyncio
 import re
+from typing import NamedTuple
 
 from trundle.base.diagnostics import TrundleError
 from trundle.ros import Node
@@ -27,12 +28,15 @@ _OPTIONS_WITH_VALUE = frozenset(
 )
 _PROVIDED_PLUGINS = re.compile(r"libgazebo_ros_(api_plugin|paths_plugin|init|factory|state)\.so$")
 """Server plugins whose functions this node provides."""
-_UNSUPPORTED = {
-    "-p": "playing a log",
-    "--play": "playing a log",
-    "-s": "a server plugin",
-    "--server-plugin": "a server plugin",
-}
+_UNSUPPORTED = {"-p": "playing a log", "--play": "playing a log"}
+
+
+class _Arguments(NamedTuple):
+    world: str
+    paused: bool
+    record: str | None
+    """Folder of state logs, "" for the default; None: no logs."""
+    server_plugins: list[str]
 
 
 class GazeboServer:
@@ -50,11 +54,18 @@ class GazeboServer:
         if simulator is None:
             node.log.fatal("simulation is not available here")
             return 1
-        world, paused, record = self._read_arguments()
+        given = self._read_arguments()
         if not await node.params.has("/use_sim_time"):
             await node.params.set("/use_sim_time", True)
         try:
-            await simulator.open(node, world, paused=paused, env=self._env, record=record)
+            await simulator.open(
+                node,
+                given.world,
+                paused=given.paused,
+                env=self._env,
+                record=given.record,
+                server_plugins=given.server_plugins,
+            )
         except TrundleError as error:
             node.log.fatal(str(error))
             return 1
@@ -93,9 +104,10 @@ class GazeboServer:
         for advertise in (advertise_property_getters, advertise_property_setters, advertise_options):
             advertise(self._node, simulator, ode)
 
-    def _read_arguments(self) -> tuple[str, bool, str | None]:
-        """Return the world, the initial pause and the recordings' folder; options without effect are logged."""
+    def _read_arguments(self) -> _Arguments:
+        """Return what the command line asks for; options without effect are logged."""
         world, paused, record = _EMPTY_WORLD, False, None
+        plugins: list[str] = []
         arguments = iter(self._arguments)
         for argument in arguments:
             option, equals, value = argument.partition("=")
@@ -107,13 +119,16 @@ class GazeboServer:
                 record = record or ""
             elif option == "--record_path":
                 record = value
-            elif option in _UNSUPPORTED and not _PROVIDED_PLUGINS.search(value):
+            elif option in ("-s", "--server-plugin"):
+                if not _PROVIDED_PLUGINS.search(value):
+                    plugins.append(value)
+            elif option in _UNSUPPORTED:
                 self._node.log.warn(f"gzserver {argument} {value}: {_UNSUPPORTED[option]} is not supported")
             elif option in ("-e", "--physics") and value not in ("ode", ""):
                 self._node.log.info(f"physics engine {value!r} is not available; using MuJoCo")
             elif not argument.startswith("-"):
                 world = argument
-        return world, paused, record
+        return _Arguments(world, paused, record, plugins)
 
 
 class Gazebo(GazeboServer):

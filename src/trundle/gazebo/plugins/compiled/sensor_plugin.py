@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -34,20 +35,38 @@ def attach_compiled_plugin(
 ) -> None:
     """Load a sensor's plugin from a library; the sensor is read while the plugin has connected to its updates.
 
+    Args:
+        library: the library.
+        tag: the plugin's element.
+        sensor: the sensor; of a multicamera any camera.
+        node: a node of the graph.
+        sim: the simulation.
+
     Raises:
         DescriptionError: it cannot be loaded, or its Load threw an exception.
     """
     plugins = CompiledPlugins.of(sim)
-    number = plugins.load(library, tag, sensor.scoped_name, node)
+    name = sensor.scoped_name
+    if isinstance(sensor, CameraSensor) and sensor.optics.name:
+        name = name.removesuffix(f"/{sensor.optics.name}")
+    number = plugins.load(library, tag, name, node)
 
-    def give(reading: Any) -> None:
+    def give(reading: Any, camera: NDArray[np.float64] | None = None) -> None:
         image = depths = None
         if isinstance(reading, CameraReading):
             image = np.ascontiguousarray(reading.rgb)
             depths = None if reading.depth is None else np.ascontiguousarray(reading.depth)
-        plugins.give_reading(number, reading.time_ns, _values(reading), image, depths, _contacts(reading))
+        values = _values(reading) if camera is None else camera
+        plugins.give_reading(number, reading.time_ns, values, image, depths, _contacts(reading))
 
-    sensor.listen(give, enabled=lambda: plugins.wants_reading(number))
+    def is_wanted() -> bool:
+        return plugins.wants_reading(number)
+
+    if isinstance(sensor, CameraSensor) and sensor.optics.name:
+        for index, camera in enumerate(sensor.multicamera):
+            camera.listen(partial(give, camera=np.array([float(index)])), enabled=is_wanted)
+    else:
+        sensor.listen(give, enabled=is_wanted)
 
 
 def _values(reading: object) -> NDArray[np.float64]:
