@@ -87,6 +87,7 @@ class TimerImpl : public boost::enable_shared_from_this<TimerImpl> {
   }
   bool hasPending() {
     const std::lock_guard<std::mutex> lock(mutex_);
+    if (is_tracking_ && tracked_.expired()) return false;
     return is_started_ && (is_waiting_ || loop_.clock.now() >= next_);
   }
   void setPeriod(int64_t period, bool reset);

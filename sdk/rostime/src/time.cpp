@@ -155,6 +155,7 @@ void Time::init() {
   const std::lock_guard<std::mutex> lock(c.mutex);
   c.is_stopped = false;
   c.is_initialized = true;
+  c.is_simulated = false;
 }
 
 void Time::shutdown() {
