@@ -21,6 +21,7 @@ from .contacts import BodyType, Contact, NearestBodies
 from .link_pieces import LinkGeometry, link_geometry
 from .objects import AttachedObject, CollisionObject, Voxels
 from .pieces import Pieces, pieces_of, pose_row
+from .scene_bodies import SceneBodies
 
 Positions = NDArray[np.float64]
 OCTOMAP = "<octomap>"
@@ -30,7 +31,6 @@ MAX_VOXELS = 500_000
 _MAX_PADDING = 10.0
 """[m]"""
 _NO_MASK = np.zeros(0, dtype=np.bool_)
-_NO_FRAME = np.array([[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]])
 
 refuse_stale(_planning)
 _planning.bind_distance(*mujoco_addresses(["mj_geomDistance"]))
@@ -57,10 +57,10 @@ class PlanningScene:
         self._set_up(Kinematics(model), geometry, AllowedCollisionMatrix.of_model(model))
         pair = ShapePair()
         self._pair = pair
-        self._world = _planning.CollisionWorld(self._kinematics.tree, *pair.addresses)
-        for number, link in enumerate(model.links):
-            self._names[number] = link
-            self._set_link(number)
+        world = _planning.CollisionWorld(self._kinematics.tree, *pair.addresses)
+        self._bodies = SceneBodies(model.links, world)
+        for link in model.links:
+            self._set_link(link)
         self._allow_all()
 
     def _set_up(self, kinematics: Kinematics, geometry: LinkGeometry, matrix: AllowedCollisionMatrix) -> None:
@@ -76,13 +76,6 @@ class PlanningScene:
         self._paddings: dict[str, float] = {}
         self._scales: dict[str, float] = {}
         self._link_number = {link: number for number, link in enumerate(model.links)}
-        self._names: dict[int, str] = {}
-        """Body → name; links first, by their number."""
-        self._numbers: dict[str, int] = {}
-        """Object, attached or not → body."""
-        self._free_numbers = itertools.count(len(model.links))
-        self._allowed: set[tuple[int, int]] = set()
-        """Pairs of bodies that the C++ does not check, the smaller number first."""
         self._masks: dict[str, NDArray[np.bool_]] = {}
 
     @property
@@ -133,7 +126,7 @@ class PlanningScene:
         """
         object = self._object(name)
         del self._objects[name]
-        self._remove_body(name)
+        self._bodies.remove(name)
         return object
 
     def move(self, name: str, pose: Pose) -> None:
@@ -163,8 +156,8 @@ class PlanningScene:
         pieces = pieces_of(attached.object.shapes, name, moves=True)
         pose_row(attached.object.pose)  # refuses what is none before anything changes
         self._objects.pop(name, None)
-        if name in self._numbers:
-            self._remove_body(name)
+        if name in self._bodies:
+            self._bodies.remove(name)
         self._attached[name] = attached
         link = self._link_number[attached.link]
         self._set_body(name, link, self._paddings.get(name, 0.0), pieces, attached.object.pose)
@@ -192,7 +185,7 @@ class PlanningScene:
         if name not in self._attached:
             raise UsageError(no_such("no attached object", name, self._attached))
         attached = self._attached.pop(name)
-        self._remove_body(name)
+        self._bodies.remove(name)
         if keep:
             self.add(_moved(attached.object, self.link_pose(attached.link) @ attached.object.pose))
         return attached
@@ -205,8 +198,8 @@ class PlanningScene:
         """
         if voxels is None or not len(voxels.centers):
             self._voxels = None
-            if OCTOMAP in self._numbers:
-                self._remove_body(OCTOMAP)
+            if OCTOMAP in self._bodies:
+                self._bodies.remove(OCTOMAP)
             return
         centers = np.ascontiguousarray(voxels.centers, dtype=np.float64).reshape(-1, 3)
         sizes = np.ascontiguousarray(voxels.sizes, dtype=np.float64).ravel()
@@ -216,8 +209,8 @@ class PlanningScene:
             )
         if len(sizes) != len(centers) or not np.isfinite(centers).all() or not ((sizes > 0) & (sizes < 1e3)).all():
             raise UsageError("voxels need finite centers (N, 3) and sizes (N,) above zero, in metres")
-        number = self._number(OCTOMAP)
-        self._world.set_voxels(number, 0.0, centers, sizes, np.array([pose_row(voxels.pose)]))
+        number = self._bodies.number(OCTOMAP)
+        self.world.set_voxels(number, 0.0, centers, sizes, np.array([pose_row(voxels.pose)]))
         self._voxels = voxels
         self._allow_body(OCTOMAP)
 
@@ -243,7 +236,7 @@ class PlanningScene:
             return
         self._check_link(name)
         self._paddings[name] = padding
-        self._set_link(self._link_number[name])
+        self._set_link(name)
 
     def set_scale(self, link: str, scale: float) -> None:
         """Scale the shapes of a link.
@@ -255,7 +248,7 @@ class PlanningScene:
             raise UsageError(f"a scale is above 0 and at most 100, got {scale}")
         self._check_link(link)
         self._scales[link] = scale
-        self._set_link(self._link_number[link])
+        self._set_link(link)
 
     def check(
         self,
@@ -276,12 +269,12 @@ class PlanningScene:
         Raises:
             UsageError: no such group, or no state.
         """
-        rows = self._world.contacts(self._state(positions), self.mask(group), max_contacts, max_contacts_per_pair)
+        rows = self.world.contacts(self._state(positions), self.mask(group), max_contacts, max_contacts_per_pair)
         return [
             Contact(
-                body_1=self._names[a],
+                body_1=self._bodies.name(a),
                 type_1=self._type(a),
-                body_2=self._names[b],
+                body_2=self._bodies.name(b),
                 type_2=self._type(b),
                 depth=depth,
                 position=position,
@@ -296,7 +289,7 @@ class PlanningScene:
         Raises:
             UsageError: no such group, or no state.
         """
-        return self._world.is_free(self._state(positions), self.mask(group))
+        return self.world.is_free(self._state(positions), self.mask(group))
 
     def distance(
         self, positions: Positions | None = None, *, group: str | None = None, cutoff: float = 10.0
@@ -311,11 +304,11 @@ class PlanningScene:
         Raises:
             UsageError: no such group, or no state.
         """
-        distance, a, b, on_a, on_b = self._world.nearest(self._state(positions), self.mask(group), cutoff)
+        distance, a, b, on_a, on_b = self.world.nearest(self._state(positions), self.mask(group), cutoff)
         if a < 0:
             return NearestBodies(distance=float("inf"))
         return NearestBodies(
-            distance=distance, body_1=self._names[a], body_2=self._names[b], point_1=on_a, point_2=on_b
+            distance=distance, body_1=self._bodies.name(a), body_2=self._bodies.name(b), point_1=on_a, point_2=on_b
         )
 
     def frame_pose(self, frame: str) -> Pose:
@@ -364,11 +357,11 @@ class PlanningScene:
     @property
     def world(self) -> _planning.CollisionWorld:
         """The C++ side, for planners."""
-        return self._world
+        return self._bodies.world
 
     def state_check(self, group: str | None = None) -> _planning.CollisionCheck:
         """Return a check of states for solvers in C++."""
-        return _planning.CollisionCheck(self._world, self.mask(group))
+        return _planning.CollisionCheck(self.world, self.mask(group))
 
     def copy(self) -> "PlanningScene":
         """Return an independent scene with the same contents, as MoveIt's diff and clone; it shares the shapes."""
@@ -380,12 +373,8 @@ class PlanningScene:
         scene._voxels = self._voxels
         scene._paddings = dict(self._paddings)
         scene._scales = dict(self._scales)
-        scene._names = dict(self._names)
-        scene._numbers = dict(self._numbers)
-        scene._free_numbers = itertools.count(max(self._names) + 1)
-        scene._allowed = set(self._allowed)
         scene._pair = ShapePair()
-        scene._world = self._world.copy(*scene._pair.addresses)
+        scene._bodies = self._bodies.copy(self.world.copy(*scene._pair.addresses))
         return scene
 
     def clear_objects(self) -> None:
@@ -405,56 +394,32 @@ class PlanningScene:
             raise UsageError(no_such("no link", link, self.model.links))
 
     def _type(self, number: int) -> BodyType:
-        if number < len(self.model.links):
+        if self._bodies.is_link(number):
             return "robot_link"
-        return "robot_attached" if self._names[number] in self._attached else "world_object"
+        return "robot_attached" if self._bodies.name(number) in self._attached else "world_object"
 
-    def _set_link(self, number: int) -> None:
-        link = self._names[number]
-        pieces = self._geometry.pieces(link, self.scale(link))
-        self._world.set_body(number, number, self.padding(link), pieces.shapes, pieces.poses, _NO_FRAME)
-
-    def _number(self, name: str) -> int:
-        if name not in self._numbers:
-            number = next(self._free_numbers)
-            self._numbers[name], self._names[number] = number, name
-        return self._numbers[name]
+    def _set_link(self, link: str) -> None:
+        self._bodies.set_link(link, self.padding(link), self._geometry.pieces(link, self.scale(link)))
 
     def _set_body(self, name: str, link: int, padding: float, pieces: Pieces, pose: Pose) -> None:
-        frame = np.array([pose_row(pose)])
-        self._world.set_body(self._number(name), link, padding, pieces.shapes, pieces.poses, frame)
+        self._bodies.set_body(name, link, padding, pieces, pose)
         self._allow_body(name)
 
-    def _remove_body(self, name: str) -> None:
-        number = self._numbers.pop(name)
-        del self._names[number]
-        self._world.remove_body(number)
-        self._allowed = {pair for pair in self._allowed if number not in pair}
-
     def _allow_body(self, name: str) -> None:
-        """Tell the C++ which links and carried objects a body may touch."""
-        number = self._numbers[name]
+        """Set which links and carried objects a body may touch."""
         others = [*self.model.links, *self._attached]
         if name in self._attached:
             others += [*self._objects, *([OCTOMAP] if self._voxels is not None else [])]
         for other in others:
-            if other != name:
-                self._set_allowed(number, self._link_number.get(other, self._numbers.get(other, -1)))
+            if other != name and other in self._bodies:
+                self._bodies.allow(name, other, is_allowed=self._may_touch(name, other))
 
     def _allow_all(self) -> None:
-        links = self.model.links
-        for a, b in itertools.combinations(range(len(links)), 2):
-            if links[a] in self._geometry and links[b] in self._geometry:
-                self._set_allowed(a, b)
-        for name in self._numbers:
+        checked = [link for link in self.model.links if link in self._geometry]
+        for a, b in itertools.combinations(checked, 2):
+            self._bodies.allow(a, b, is_allowed=self._may_touch(a, b))
+        for name in self._bodies.others:
             self._allow_body(name)
-
-    def _set_allowed(self, a: int, b: int) -> None:
-        pair = (a, b) if a < b else (b, a)
-        is_allowed = self._may_touch(self._names[a], self._names[b])
-        if is_allowed != (pair in self._allowed):
-            self._world.allow(*pair, is_allowed)
-            (self._allowed.add if is_allowed else self._allowed.discard)(pair)
 
     def _may_touch(self, a: str, b: str) -> bool:
         for carried, other in ((a, b), (b, a)):
