@@ -12,8 +12,8 @@ from trundle.robots.parameters import RosParameters
 from trundle.ros import Node, TransformListener
 
 from .capabilities import CAPABILITIES, DEFAULTS
-from .context import Context
 from .current_state_monitor import CurrentStateMonitor
+from .move_group_context import MoveGroupContext
 from .octomap_monitor import OctomapMonitor
 from .pipelines import Pipelines
 from .planning_scene_monitor import MonitorSettings, PlanningSceneMonitor
@@ -68,7 +68,7 @@ class MoveGroup:
                 task.cancel()
         return 0
 
-    async def _context(self, root: RosParameters, description: RobotDescription) -> Context:
+    async def _context(self, root: RosParameters, description: RobotDescription) -> MoveGroupContext:
         node = self._node
         buffer = TransformListener(node).buffer
         kinematics = Kinematics(description.model)
@@ -80,7 +80,7 @@ class MoveGroup:
         if root.flag("allow_trajectory_execution", default=True):
             execution = self._execution(root, description, monitor.state)
         OctomapMonitor(node, root, monitor)
-        return Context(
+        return MoveGroupContext(
             node=node,
             description=description,
             monitor=monitor,
@@ -97,7 +97,7 @@ class MoveGroup:
         execution.open(root)
         return execution
 
-    def _capabilities(self, root: RosParameters, context: Context) -> list[str]:
+    def _capabilities(self, root: RosParameters, context: MoveGroupContext) -> list[str]:
         """Return the capabilities: the default ones, those of ~capabilities and of pipelines, less the disabled."""
         wanted = [*DEFAULTS, *root.text("capabilities", "").split(), *context.pipelines.capabilities()]
         disabled = set(root.text("disable_capabilities", "").split())

@@ -14,7 +14,7 @@ from .plan_outcome import PlanOutcome
 if TYPE_CHECKING:
     from trundle.planning.planning_scene import AllowedCollisionMatrix
 
-    from .context import Context
+    from .move_group_context import MoveGroupContext
 
 _LOOK_S = 0.1
 _CODES = {
@@ -27,7 +27,7 @@ _CODES = {
 
 
 async def plan_and_execute(
-    context: "Context",
+    context: "MoveGroupContext",
     plan: Callable[[], Awaitable[PlanOutcome]],
     *,
     attempts: int = 1,
@@ -64,7 +64,7 @@ async def plan_and_execute(
 
 
 async def execute_watched(
-    context: "Context", outcome: PlanOutcome, *, allowed: "AllowedCollisionMatrix | None" = None
+    context: "MoveGroupContext", outcome: PlanOutcome, *, allowed: "AllowedCollisionMatrix | None" = None
 ) -> ErrorCode:
     """Execute a path, and stop where the world has changed so that the rest of it collides.
 

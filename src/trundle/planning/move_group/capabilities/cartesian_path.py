@@ -15,13 +15,13 @@ from ..scene import pose_of
 if TYPE_CHECKING:
     from trundle.ros import Message
 
-    from ..context import Context
+    from ..move_group_context import MoveGroupContext
 
 _MAX_WAYPOINTS = 10_000
 _MIN_STEP_M = 1e-4
 
 
-def offer_cartesian_path(context: "Context") -> None:
+def offer_cartesian_path(context: "MoveGroupContext") -> None:
     """Advertise compute_cartesian_path."""
 
     async def answer(request: "Message") -> dict[str, Any]:
@@ -38,12 +38,12 @@ def offer_cartesian_path(context: "Context") -> None:
     context.node.advertise_service("compute_cartesian_path", "moveit_msgs/GetCartesianPath", answer)
 
 
-def _refused(context: "Context", code: ErrorCode, sentence: str) -> dict[str, Any]:
+def _refused(context: "MoveGroupContext", code: ErrorCode, sentence: str) -> dict[str, Any]:
     context.node.log.error(f"compute_cartesian_path: {sentence}")
     return {"error_code": {"val": int(code)}}
 
 
-async def _follow(context: "Context", request: "Message") -> dict[str, Any]:
+async def _follow(context: "MoveGroupContext", request: "Message") -> dict[str, Any]:
     monitor, pipelines = context.monitor, context.pipelines
     model = monitor.model
     group = model.groups.get(str(request.group_name))
@@ -109,7 +109,9 @@ async def _follow(context: "Context", request: "Message") -> dict[str, Any]:
     }
 
 
-def _limited(context: "Context", path: JointPath, start: np.ndarray, link: str, request: "Message") -> JointPath:
+def _limited(
+    context: "MoveGroupContext", path: JointPath, start: np.ndarray, link: str, request: "Message"
+) -> JointPath:
     """Return a path on which a link is no faster than asked for."""
     model, kinematics = context.monitor.model, context.monitor.kinematics
     states = np.repeat(start[None, :], len(path.times_s), axis=0)

@@ -15,9 +15,9 @@ from .sequence import offer_sequence_action, offer_sequence_service
 from .state_validity import offer_state_validity
 
 if TYPE_CHECKING:
-    from ..context import Context
+    from ..move_group_context import MoveGroupContext
 
-_Offer = Callable[["Context"], None]
+_Offer = Callable[["MoveGroupContext"], None]
 DEFAULTS = (
     "move_group/MoveGroupCartesianPathService",
     "move_group/MoveGroupKinematicsService",

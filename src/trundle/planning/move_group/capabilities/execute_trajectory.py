@@ -13,7 +13,7 @@ from ..error_codes import result_text
 if TYPE_CHECKING:
     from trundle.ros import Message
 
-    from ..context import Context
+    from ..move_group_context import MoveGroupContext
 
 CODES = {
     Outcome.SUCCEEDED: ErrorCode.SUCCESS,
@@ -25,7 +25,7 @@ CODES = {
 _REFUSAL = "Cannot execute trajectory since ~allow_trajectory_execution was set to false"
 
 
-def offer_execute_trajectory_action(context: "Context") -> None:
+def offer_execute_trajectory_action(context: "MoveGroupContext") -> None:
     """Advertise the action execute_trajectory."""
 
     async def execute(goal: "Message", accept: Callable[[], None]) -> ActionResult:
@@ -41,7 +41,7 @@ def offer_execute_trajectory_action(context: "Context") -> None:
     server = ActionServer(context.node, "execute_trajectory", "moveit_msgs/ExecuteTrajectory", execute)
 
 
-def offer_execute_trajectory_service(context: "Context") -> None:
+def offer_execute_trajectory_service(context: "MoveGroupContext") -> None:
     """Advertise the service execute_kinematic_path."""
 
     async def answer(request: "Message") -> dict[str, Any]:
@@ -58,7 +58,7 @@ def offer_execute_trajectory_service(context: "Context") -> None:
     context.node.advertise_service("execute_kinematic_path", "moveit_msgs/ExecuteKnownTrajectory", answer)
 
 
-async def run_trajectory(context: "Context", trajectory: "Message") -> ErrorCode:
+async def run_trajectory(context: "MoveGroupContext", trajectory: "Message") -> ErrorCode:
     """Execute a moveit_msgs/RobotTrajectory; returns how it ended."""
     if context.execution is None:
         return ErrorCode.CONTROL_FAILED

@@ -16,12 +16,12 @@ from ..scene import pose_fields, pose_of
 if TYPE_CHECKING:
     from trundle.ros import Message
 
-    from ..context import Context
+    from ..move_group_context import MoveGroupContext
 
 _TIMEOUT_S = 0.05
 
 
-def offer_kinematics(context: "Context") -> None:
+def offer_kinematics(context: "MoveGroupContext") -> None:
     """Advertise compute_ik and compute_fk."""
 
     async def ik(request: "Message") -> dict[str, Any]:
@@ -38,7 +38,7 @@ def offer_kinematics(context: "Context") -> None:
     context.node.advertise_service("compute_fk", "moveit_msgs/GetPositionFK", fk)
 
 
-async def _solve(context: "Context", request: "Message") -> tuple[ErrorCode, np.ndarray | None]:
+async def _solve(context: "MoveGroupContext", request: "Message") -> tuple[ErrorCode, np.ndarray | None]:
     monitor, model = context.monitor, context.monitor.model
     group = model.groups.get(str(request.group_name))
     if group is None:
@@ -80,7 +80,7 @@ async def _solve(context: "Context", request: "Message") -> tuple[ErrorCode, np.
     return (ErrorCode.NO_IK_SOLUTION, None) if found is None else (ErrorCode.SUCCESS, found)
 
 
-async def _link_poses(context: "Context", request: "Message") -> dict[str, Any]:
+async def _link_poses(context: "MoveGroupContext", request: "Message") -> dict[str, Any]:
     monitor = context.monitor
     names = [str(name) for name in request.fk_link_names]
     if not names:

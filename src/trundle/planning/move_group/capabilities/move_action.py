@@ -15,10 +15,10 @@ from ..scene import SceneContents, is_empty_state
 if TYPE_CHECKING:
     from trundle.ros import Message
 
-    from ..context import Context
+    from ..move_group_context import MoveGroupContext
 
 
-def offer_move_action(context: "Context") -> None:
+def offer_move_action(context: "MoveGroupContext") -> None:
     """Advertise the action move_group."""
     node = context.node
 
@@ -60,7 +60,7 @@ def offer_move_action(context: "Context") -> None:
     server = ActionServer(node, "move_group", "moveit_msgs/MoveGroup", execute)
 
 
-def changed_scene(context: "Context", diff: "Message") -> SceneContents | None:
+def changed_scene(context: "MoveGroupContext", diff: "Message") -> SceneContents | None:
     """Return the scene with a goal's diff; None if the diff says nothing.
 
     Raises:
@@ -80,7 +80,7 @@ def changed_scene(context: "Context", diff: "Message") -> SceneContents | None:
 
 
 async def _plan_and_execute(
-    context: "Context", goal: "Message", changed: SceneContents | None, report: Callable[[str], None]
+    context: "MoveGroupContext", goal: "Message", changed: SceneContents | None, report: Callable[[str], None]
 ) -> PlanOutcome:
     options = goal.planning_options
     starts_elsewhere = not is_empty_state(goal.request.start_state)
@@ -104,7 +104,7 @@ async def _plan_and_execute(
     )
 
 
-def _result(context: "Context", outcome: PlanOutcome, *, plan_only: bool) -> ActionResult:
+def _result(context: "MoveGroupContext", outcome: PlanOutcome, *, plan_only: bool) -> ActionResult:
     is_empty = outcome.path is None or len(outcome.path.times_s) == 0
     text = result_text(outcome.code, is_empty=is_empty, plan_only=plan_only)
     fields: dict[str, Any] = {

@@ -10,47 +10,47 @@ from trundle.ros import ActionResult, ActionServer
 
 from ..error_codes import result_text
 from ..manipulation import (
-    Attempt,
     Failure,
+    ManipulationGoal,
     Stage,
     execute_stages,
-    pick_attempts,
-    place_attempts,
-    try_attempt,
+    pick_goals,
+    place_goals,
+    plan_manipulation,
 )
 from .move_action import changed_scene
 
 if TYPE_CHECKING:
     from trundle.ros import Message
 
-    from ..context import Context
+    from ..move_group_context import MoveGroupContext
     from ..scene import Frames, SceneContents
 
-    _Read = Callable[[Context, Message, SceneContents, Frames], list[Attempt]]
+    _Read = Callable[[MoveGroupContext, Message, SceneContents, Frames], list[ManipulationGoal]]
 
 _DEFAULT_TIME_S = 5.0
 
 
-def offer_pick_place(context: "Context") -> None:
+def offer_pick_place(context: "MoveGroupContext") -> None:
     """Advertise the actions pickup and place."""
-    _offer(context, "pickup", "moveit_msgs/Pickup", pick_attempts, _pick_fields)
-    _offer(context, "place", "moveit_msgs/Place", place_attempts, _place_fields)
+    _offer(context, "pickup", "moveit_msgs/Pickup", pick_goals, _pick_fields)
+    _offer(context, "place", "moveit_msgs/Place", place_goals, _place_fields)
 
 
-def _pick_fields(goal: "Message", attempt: Attempt) -> dict[str, Any]:
+def _pick_fields(goal: "Message", attempt: ManipulationGoal) -> dict[str, Any]:
     return {"grasp": goal.possible_grasps[attempt.number]} if len(goal.possible_grasps) else {}
 
 
-def _place_fields(goal: "Message", attempt: Attempt) -> dict[str, Any]:
+def _place_fields(goal: "Message", attempt: ManipulationGoal) -> dict[str, Any]:
     return {"place_location": goal.place_locations[attempt.number]}
 
 
 def _offer(
-    context: "Context",
+    context: "MoveGroupContext",
     name: str,
     kind: str,
     read: "_Read",
-    chosen_fields: Callable[["Message", Attempt], dict[str, Any]],
+    chosen_fields: Callable[["Message", ManipulationGoal], dict[str, Any]],
 ) -> None:
     node = context.node
 
@@ -92,8 +92,10 @@ def _offer(
     server = ActionServer(node, name, kind, execute)
 
 
-async def _plan(context: "Context", goal: "Message", read: "_Read") -> tuple[Attempt, list[Stage]] | Failure:
-    """Return the first attempt that is possible, with its stages."""
+async def _plan(
+    context: "MoveGroupContext", goal: "Message", read: "_Read"
+) -> tuple[ManipulationGoal, list[Stage]] | Failure:
+    """Return the first manipulation that is possible, with its stages."""
     monitor = context.monitor
     start = monitor.positions()
     try:
@@ -110,7 +112,7 @@ async def _plan(context: "Context", goal: "Message", read: "_Read") -> tuple[Att
             if index and context.node.clock.now_ns() > end_ns:
                 break
             found = await asyncio.to_thread(
-                try_attempt, context, attempt, start, planner_id=str(goal.planner_id), planning_time_s=time_s
+                plan_manipulation, context, attempt, start, planner_id=str(goal.planner_id), planning_time_s=time_s
             )
             if not isinstance(found, Failure):
                 context.node.log.info(f"Found successful manipulation plan: number {attempt.number}")

@@ -9,10 +9,10 @@ from ..plan_outcome import PlanOutcome
 if TYPE_CHECKING:
     from trundle.ros import Message
 
-    from ..context import Context
+    from ..move_group_context import MoveGroupContext
 
 
-def offer_plan_service(context: "Context") -> None:
+def offer_plan_service(context: "MoveGroupContext") -> None:
     """Advertise plan_kinematic_path."""
 
     async def answer(request: "Message") -> dict[str, Any]:
@@ -25,7 +25,7 @@ def offer_plan_service(context: "Context") -> None:
     context.node.advertise_service("plan_kinematic_path", "moveit_msgs/GetMotionPlan", answer)
 
 
-def plan_response(context: "Context", outcome: PlanOutcome) -> dict[str, Any]:
+def plan_response(context: "MoveGroupContext", outcome: PlanOutcome) -> dict[str, Any]:
     """Return the fields of a moveit_msgs/MotionPlanResponse."""
     fields: dict[str, Any] = {
         "error_code": {"val": int(outcome.code)},

@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from trundle.ros import Message
 
-    from ..context import Context
+    from ..move_group_context import MoveGroupContext
 
 
-def offer_planner_services(context: "Context") -> None:
+def offer_planner_services(context: "MoveGroupContext") -> None:
     """Advertise the three services."""
     pipelines = context.pipelines
 

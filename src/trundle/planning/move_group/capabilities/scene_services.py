@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from trundle.ros import Message
 
-    from ..context import Context
+    from ..move_group_context import MoveGroupContext
 
 
-def offer_get_planning_scene(context: "Context") -> None:
+def offer_get_planning_scene(context: "MoveGroupContext") -> None:
     """Advertise get_planning_scene."""
 
     async def answer(request: "Message") -> dict[str, Any]:
@@ -17,7 +17,7 @@ def offer_get_planning_scene(context: "Context") -> None:
     context.node.advertise_service("get_planning_scene", "moveit_msgs/GetPlanningScene", answer)
 
 
-def offer_apply_planning_scene(context: "Context") -> None:
+def offer_apply_planning_scene(context: "MoveGroupContext") -> None:
     """Advertise apply_planning_scene."""
 
     async def answer(request: "Message") -> dict[str, Any]:
@@ -26,7 +26,7 @@ def offer_apply_planning_scene(context: "Context") -> None:
     context.node.advertise_service("apply_planning_scene", "moveit_msgs/ApplyPlanningScene", answer)
 
 
-def offer_clear_octomap(context: "Context") -> None:
+def offer_clear_octomap(context: "MoveGroupContext") -> None:
     """Advertise clear_octomap."""
 
     async def answer(request: "Message") -> dict[str, Any]:

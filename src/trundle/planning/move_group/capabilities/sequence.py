@@ -22,12 +22,12 @@ from ..plan_outcome import PlanOutcome
 if TYPE_CHECKING:
     from trundle.ros import Message
 
-    from ..context import Context
+    from ..move_group_context import MoveGroupContext
 
 _MAX_ITEMS = 1000
 
 
-def offer_sequence_service(context: "Context") -> None:
+def offer_sequence_service(context: "MoveGroupContext") -> None:
     """Advertise plan_sequence_path."""
 
     async def answer(request: "Message") -> dict[str, Any]:
@@ -37,7 +37,7 @@ def offer_sequence_service(context: "Context") -> None:
     context.node.advertise_service("plan_sequence_path", "moveit_msgs/GetMotionSequence", answer)
 
 
-def offer_sequence_action(context: "Context") -> None:
+def offer_sequence_action(context: "MoveGroupContext") -> None:
     """Advertise sequence_move_group."""
 
     async def execute(goal: "Message", accept: Callable[[], None]) -> ActionResult:
@@ -59,7 +59,7 @@ def offer_sequence_action(context: "Context") -> None:
     server = ActionServer(context.node, "sequence_move_group", "moveit_msgs/MoveGroupSequence", execute)
 
 
-async def _plan(context: "Context", request: "Message") -> tuple[ErrorCode, list[PlanOutcome], float]:
+async def _plan(context: "MoveGroupContext", request: "Message") -> tuple[ErrorCode, list[PlanOutcome], float]:
     """Plan each item from where the last one ends; those of one group after each other become one path."""
     items = list(request.items)
     began = time.monotonic()
@@ -96,7 +96,7 @@ def _check_radii(radii: list[float]) -> None:
         raise RequestError(ErrorCode.INVALID_MOTION_PLAN, f"the last blend radius is 0, got {radii[-1]:g}")
 
 
-def _joined(context: "Context", outcomes: list[PlanOutcome], radii: list[float]) -> list[PlanOutcome]:
+def _joined(context: "MoveGroupContext", outcomes: list[PlanOutcome], radii: list[float]) -> list[PlanOutcome]:
     """Return the plans, those of one group after each other as one, blended where the radius is above 0."""
     merged = [outcomes[0]]
     corner: tuple[np.ndarray, float] | None = None
@@ -129,7 +129,7 @@ def _joined(context: "Context", outcomes: list[PlanOutcome], radii: list[float])
 
 
 def _check_overlap(
-    context: "Context",
+    context: "MoveGroupContext",
     scene: PlanningScene,
     outcome: PlanOutcome,
     corner: tuple[np.ndarray, float] | None,
@@ -156,7 +156,9 @@ def _trajectory(path: JointPath) -> Trajectory:
     )
 
 
-def _response(context: "Context", code: ErrorCode, outcomes: list[PlanOutcome], seconds: float) -> dict[str, Any]:
+def _response(
+    context: "MoveGroupContext", code: ErrorCode, outcomes: list[PlanOutcome], seconds: float
+) -> dict[str, Any]:
     fields: dict[str, Any] = {
         "error_code": {"val": int(code)},
         "planned_trajectories": [context.trajectory_fields(outcome.path) for outcome in outcomes],

@@ -11,13 +11,13 @@ if TYPE_CHECKING:
     from trundle.planning.planning_scene import Contact
     from trundle.ros import Message
 
-    from ..context import Context
+    from ..move_group_context import MoveGroupContext
 
 _TYPES = {"robot_link": 0, "world_object": 1, "robot_attached": 2}
 _MAX_CONTACTS = 100
 
 
-def offer_state_validity(context: "Context") -> None:
+def offer_state_validity(context: "MoveGroupContext") -> None:
     """Advertise check_state_validity."""
 
     async def answer(request: "Message") -> dict[str, Any]:

@@ -1,3 +1,8 @@
-from .attempt import Attempt as Attempt, Failure as Failure, Stage as Stage, try_attempt as try_attempt
 from .execution import execute_stages as execute_stages
-from .requests import pick_attempts as pick_attempts, place_attempts as place_attempts
+from .manipulation_plan import (
+    Failure as Failure,
+    ManipulationGoal as ManipulationGoal,
+    Stage as Stage,
+    plan_manipulation as plan_manipulation,
+)
+from .requests import pick_goals as pick_goals, place_goals as place_goals

@@ -8,14 +8,14 @@ from trundle.planning.planners import ErrorCode
 from ..plan_execution import execute_watched
 from ..plan_outcome import PlanOutcome
 from ..scene import SceneContents
-from .attempt import Attempt, Stage
+from .manipulation_plan import ManipulationGoal, Stage
 
 if TYPE_CHECKING:
-    from ..context import Context
+    from ..move_group_context import MoveGroupContext
 
 
 async def execute_stages(
-    context: "Context", attempt: Attempt, stages: Sequence[Stage], report: Callable[[str], None]
+    context: "MoveGroupContext", manipulation: ManipulationGoal, stages: Sequence[Stage], report: Callable[[str], None]
 ) -> ErrorCode:
     """Execute stages one after another; returns how it ended."""
     monitor = context.monitor
@@ -23,18 +23,18 @@ async def execute_stages(
         report(stage.description)
         context.node.log.info(f"Executing '{stage.description}'")
         outcome = PlanOutcome(code=ErrorCode.SUCCESS, start=stage.start, group=stage.group, path=stage.path)
-        code = await execute_watched(context, outcome, allowed=attempt.before.allowed)
+        code = await execute_watched(context, outcome, allowed=manipulation.before.allowed)
         if code is not ErrorCode.SUCCESS:
             return code
         if stage.changes_scene:
-            monitor.replace(_merged(monitor.contents, attempt))
+            monitor.replace(_merged(monitor.contents, manipulation))
     return ErrorCode.SUCCESS
 
 
-def _merged(contents: SceneContents, attempt: Attempt) -> SceneContents:
-    """Return the present scene with the object attached or placed as the attempt says."""
+def _merged(contents: SceneContents, manipulation: ManipulationGoal) -> SceneContents:
+    """Return the present scene with the object attached or placed as the manipulation says."""
     changed = contents.copy()
-    before, after = attempt.before, attempt.after
+    before, after = manipulation.before, manipulation.after
     for name in [*before.objects, *before.carried]:
         if name in after.carried and name not in before.carried:
             changed.objects.pop(name, None)

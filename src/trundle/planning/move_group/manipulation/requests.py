@@ -1,4 +1,4 @@
-"""Goals of pickup and place as attempts."""
+"""Goals of pickup and place as manipulations."""
 
 import math
 from collections.abc import Iterable
@@ -13,13 +13,13 @@ from trundle.spatial import Pose, Vector3
 
 from ..controllers import JointPath, path_from_message
 from ..scene import CarriedObject, Frames, SceneContents, SceneObject, pose_of
-from .attempt import Attempt, Translation
+from .manipulation_plan import ManipulationGoal, Translation
 
 if TYPE_CHECKING:
     from trundle.planning.robot_model import EndEffector, RobotModel
     from trundle.ros import Message
 
-    from ..context import Context
+    from ..move_group_context import MoveGroupContext
 
 _DEFAULT_MIN_M, _DEFAULT_M = 0.1, 0.2
 
@@ -66,8 +66,10 @@ def _arm_group(model: "RobotModel", effector: "EndEffector", group: str) -> str:
     raise RequestError(f"Could not compute the group that moves end effector '{effector.name}'; name it in the goal")
 
 
-def pick_attempts(context: "Context", goal: "Message", contents: SceneContents, frames: Frames) -> list[Attempt]:
-    """Return the attempts of a moveit_msgs/PickupGoal, the best grasp first.
+def pick_goals(
+    context: "MoveGroupContext", goal: "Message", contents: SceneContents, frames: Frames
+) -> list[ManipulationGoal]:
+    """Return the manipulations of a moveit_msgs/PickupGoal, the best grasp first.
 
     Raises:
         RequestError: the object or the end effector is not there.
@@ -88,7 +90,7 @@ def pick_attempts(context: "Context", goal: "Message", contents: SceneContents, 
     touch_links = [str(one) for one in goal.attached_object_touch_links] or list(dict.fromkeys(hand))
     grasps = list(goal.possible_grasps) or [_default_grasp(context, name, effector)]
     order = sorted(range(len(grasps)), key=lambda index: -float(grasps[index].grasp_quality))
-    attempts: list[Attempt] = []
+    goals: list[ManipulationGoal] = []
     for index in order:
         grasp = grasps[index]
         model_from_hand = frames.find(str(grasp.grasp_pose.header.frame_id)) @ pose_of(grasp.grasp_pose.pose)
@@ -114,8 +116,8 @@ def pick_attempts(context: "Context", goal: "Message", contents: SceneContents, 
             touch_links=tuple(dict.fromkeys(touch_links)),
             detach_posture=grasp.pre_grasp_posture if len(grasp.pre_grasp_posture.joint_names) else None,
         )
-        attempts.append(
-            Attempt(
+        goals.append(
+            ManipulationGoal(
                 number=index,
                 group=group,
                 hand_link=effector.parent_link,
@@ -130,11 +132,13 @@ def pick_attempts(context: "Context", goal: "Message", contents: SceneContents, 
                 names=("pre_grasp", "grasp"),
             )
         )
-    return attempts
+    return goals
 
 
-def place_attempts(context: "Context", goal: "Message", contents: SceneContents, frames: Frames) -> list[Attempt]:
-    """Return the attempts of a moveit_msgs/PlaceGoal, the best location first.
+def place_goals(
+    context: "MoveGroupContext", goal: "Message", contents: SceneContents, frames: Frames
+) -> list[ManipulationGoal]:
+    """Return the manipulations of a moveit_msgs/PlaceGoal, the best location first.
 
     Raises:
         RequestError: nothing is attached, or there is no location.
@@ -157,7 +161,7 @@ def place_attempts(context: "Context", goal: "Message", contents: SceneContents,
     hand_from_item = (frames.link(effector.parent_link).inverse() @ frames.link(carried.link)) @ carried.object.pose
     locations = list(goal.place_locations)
     order = sorted(range(len(locations)), key=lambda index: -float(locations[index].quality))
-    attempts: list[Attempt] = []
+    goals: list[ManipulationGoal] = []
     for index in order:
         location = locations[index]
         model_from_place = frames.find(str(location.place_pose.header.frame_id)) @ pose_of(location.place_pose.pose)
@@ -178,8 +182,8 @@ def place_attempts(context: "Context", goal: "Message", contents: SceneContents,
         posture = location.post_place_posture
         if not len(posture.joint_names) and carried.detach_posture is not None:
             posture = carried.detach_posture
-        attempts.append(
-            Attempt(
+        goals.append(
+            ManipulationGoal(
                 number=index,
                 group=group,
                 hand_link=effector.parent_link,
@@ -194,7 +198,7 @@ def place_attempts(context: "Context", goal: "Message", contents: SceneContents,
                 names=("pre_place", "place"),
             )
         )
-    return attempts
+    return goals
 
 
 def _at(item: SceneObject, pose: Pose) -> SceneObject:
@@ -223,7 +227,7 @@ def _translation(message: "Message", effector: "EndEffector", model_from_hand: P
     )
 
 
-def _posture(context: "Context", message: "Message") -> JointPath | None:
+def _posture(context: "MoveGroupContext", message: "Message") -> JointPath | None:
     """Read a posture; joints that the robot does not have are an error.
 
     Raises:
@@ -239,7 +243,7 @@ def _posture(context: "Context", message: "Message") -> JointPath | None:
     return path
 
 
-def _default_grasp(context: "Context", name: str, effector: "EndEffector") -> "Message":
+def _default_grasp(context: "MoveGroupContext", name: str, effector: "EndEffector") -> "Message":
     """Return the grasp that the original makes up: at the object's origin, from above."""
     model = context.monitor.model
     joints = list(model.groups[effector.group].joints) if effector.group in model.groups else []

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from trundle.planning.kinematics import Kinematics
     from trundle.planning.robot_model import RobotModel
 
-    from .contents import SceneContents
+    from .scene_contents import SceneContents
 
 
 class FrameError(TrundleError):

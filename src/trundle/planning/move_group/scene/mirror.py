@@ -9,8 +9,8 @@ from trundle.planning.planning_scene import PlanningScene
 from trundle.robots.packages import Packages
 from trundle.ros import Node
 
-from .contents import SceneContents
 from .octomap import read_octomap
+from .scene_contents import SceneContents
 
 if TYPE_CHECKING:
     from collections.abc import Callable

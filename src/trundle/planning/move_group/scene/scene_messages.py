@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .contents import SceneContents
+from .scene_contents import SceneContents
 from .state_messages import state_fields
 
 if TYPE_CHECKING:

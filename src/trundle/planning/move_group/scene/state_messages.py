@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from trundle.planning.robot_model import RobotModel
     from trundle.ros import Message
 
-    from .contents import CarriedObject
+    from .scene_contents import CarriedObject
 
 
 def state_fields(

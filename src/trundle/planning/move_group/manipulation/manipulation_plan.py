@@ -14,7 +14,7 @@ from ..scene import SceneContents
 if TYPE_CHECKING:
     from trundle.planning.planning_scene import PlanningScene
 
-    from ..context import Context
+    from ..move_group_context import MoveGroupContext
 
 _IK_TIMEOUT_S = 0.2
 _STEP_M = 0.01
@@ -33,7 +33,7 @@ class Translation(Struct, frozen=True, kw_only=True):
     min_m: float
 
 
-class Attempt(Struct, frozen=True, kw_only=True, eq=False):
+class ManipulationGoal(Struct, frozen=True, kw_only=True, eq=False):
     """What is asked of the arm."""
 
     number: int
@@ -69,31 +69,36 @@ class Stage(Struct, frozen=True, kw_only=True, eq=False):
 
 
 class Failure(Struct, frozen=True, kw_only=True):
-    """Why an attempt is no way."""
+    """Why a manipulation is no way."""
 
     code: ErrorCode
     sentence: str
 
 
-def try_attempt(
-    context: "Context", attempt: Attempt, start: np.ndarray, *, planner_id: str, planning_time_s: float
+def plan_manipulation(
+    context: "MoveGroupContext",
+    manipulation: ManipulationGoal,
+    start: np.ndarray,
+    *,
+    planner_id: str,
+    planning_time_s: float,
 ) -> list[Stage] | Failure:
-    """Compute all stages of an attempt; runs beside the loop.
+    """Compute all stages of a manipulation; runs beside the loop.
 
     Args:
         context: node.
-        attempt: what is asked.
+        manipulation: what is asked.
         start: present state vector.
         planner_id: planner of the way to the approach; empty: the default.
         planning_time_s: its time.
     """
     pipelines, model = context.pipelines, context.monitor.model
-    before = pipelines.scene(attempt.before, start)
-    open_state = _with_posture(context, start, attempt.approach_posture)
+    before = pipelines.scene(manipulation.before, start)
+    open_state = _with_posture(context, start, manipulation.approach_posture)
     failure = Failure(code=ErrorCode.NO_IK_SOLUTION, sentence="the hand does not get there")
     seeds = [open_state]
-    generator = np.random.default_rng(attempt.number)
-    indices = model.indices(model.group(attempt.group).variables)
+    generator = np.random.default_rng(manipulation.number)
+    indices = model.indices(model.group(manipulation.group).variables)
     for _ in range(_WAYS - 1):
         seed = open_state.copy()
         lower, upper = np.maximum(model.lower[indices], -np.pi), np.minimum(model.upper[indices], np.pi)
@@ -101,30 +106,30 @@ def try_attempt(
         seeds.append(seed)
     for seed in seeds:
         grasp = pipelines.solve(
-            attempt.group,
-            [(attempt.hand_link, attempt.model_from_hand)],
+            manipulation.group,
+            [(manipulation.hand_link, manipulation.model_from_hand)],
             seed,
             _IK_TIMEOUT_S,
-            lambda state: before.is_free(state, group=attempt.group),
+            lambda state: before.is_free(state, group=manipulation.group),
         )
         if grasp is None:
             continue
-        way_in = _straight(context, before, attempt, grasp, attempt.approach, backwards=True)
+        way_in = _straight(context, before, manipulation, grasp, manipulation.approach, backwards=True)
         if isinstance(way_in, Failure):
             failure = way_in
             continue
-        closed = _with_posture(context, grasp, attempt.closing_posture)
-        after = pipelines.scene(attempt.after, closed)
-        way_out = _straight(context, after, attempt, closed, attempt.retreat, backwards=False)
+        closed = _with_posture(context, grasp, manipulation.closing_posture)
+        after = pipelines.scene(manipulation.after, closed)
+        way_out = _straight(context, after, manipulation, closed, manipulation.retreat, backwards=False)
         if isinstance(way_out, Failure):
             failure = way_out
             continue
         first = way_in[-1].copy()
-        fingers = model.indices(model.group(attempt.hand_group).variables if attempt.hand_group else ())
+        fingers = model.indices(model.group(manipulation.hand_group).variables if manipulation.hand_group else ())
         first[fingers] = start[fingers]  # the hand opens when it is there
         plan = pipelines.plan_to_state(
-            pipelines.scene(attempt.before, start),
-            attempt.group,
+            pipelines.scene(manipulation.before, start),
+            manipulation.group,
             start,
             first,
             planner_id=planner_id,
@@ -133,11 +138,11 @@ def try_attempt(
         if not plan.is_success or plan.path is None:
             failure = Failure(code=plan.code, sentence=plan.sentence or "no way to where the approach begins")
             continue
-        return _stages(context, attempt, start, plan.path, way_in[::-1], closed, way_out)
+        return _stages(context, manipulation, start, plan.path, way_in[::-1], closed, way_out)
     return failure
 
 
-def _with_posture(context: "Context", state: np.ndarray, posture: JointPath | None) -> np.ndarray:
+def _with_posture(context: "MoveGroupContext", state: np.ndarray, posture: JointPath | None) -> np.ndarray:
     """Return a state with the last positions of a posture."""
     if posture is None:
         return state.copy()
@@ -148,9 +153,9 @@ def _with_posture(context: "Context", state: np.ndarray, posture: JointPath | No
 
 
 def _straight(
-    context: "Context",
+    context: "MoveGroupContext",
     scene: "PlanningScene",
-    attempt: Attempt,
+    manipulation: ManipulationGoal,
     start: np.ndarray,
     translation: Translation,
     *,
@@ -161,9 +166,11 @@ def _straight(
         return start[None, :]
     sign = -1.0 if backwards else 1.0
     x, y, z = (sign * translation.desired_m * part for part in translation.direction)
-    here = context.monitor.kinematics.link_pose(start, attempt.hand_link)
+    here = context.monitor.kinematics.link_pose(start, manipulation.hand_link)
     there = Pose((here.position[0] + x, here.position[1] + y, here.position[2] + z), here.quaternion)
-    found = cartesian_path(scene, attempt.group, [there], link=attempt.hand_link, start=start, max_step=_STEP_M)
+    found = cartesian_path(
+        scene, manipulation.group, [there], link=manipulation.hand_link, start=start, max_step=_STEP_M
+    )
     reached_m = found.fraction * translation.desired_m
     if reached_m + 1e-6 < translation.min_m:
         what = "approach" if backwards else "retreat"
@@ -175,8 +182,8 @@ def _straight(
 
 
 def _stages(
-    context: "Context",
-    attempt: Attempt,
+    context: "MoveGroupContext",
+    manipulation: ManipulationGoal,
     start: np.ndarray,
     plan: JointPath,
     way_in: np.ndarray,
@@ -184,18 +191,18 @@ def _stages(
     way_out: np.ndarray,
 ) -> list[Stage]:
     pipelines = context.pipelines
-    stages = [Stage(description="plan", path=plan, start=start, group=attempt.group)]
-    opening, closing = attempt.names
-    if attempt.approach_posture is not None:
-        path = _posture_path(context, start, attempt.approach_posture)
-        stages.append(Stage(description=opening, path=path, start=way_in[0], group=attempt.hand_group))
+    stages = [Stage(description="plan", path=plan, start=start, group=manipulation.group)]
+    opening, closing = manipulation.names
+    if manipulation.approach_posture is not None:
+        path = _posture_path(context, start, manipulation.approach_posture)
+        stages.append(Stage(description=opening, path=path, start=way_in[0], group=manipulation.hand_group))
     if len(way_in) > 1:
-        path = pipelines.timed(attempt.group, way_in)
-        stages.append(Stage(description="approach", path=path, start=way_in[0], group=attempt.group))
-    if attempt.closing_posture is not None:
-        path = _posture_path(context, way_in[-1], attempt.closing_posture)
+        path = pipelines.timed(manipulation.group, way_in)
+        stages.append(Stage(description="approach", path=path, start=way_in[0], group=manipulation.group))
+    if manipulation.closing_posture is not None:
+        path = _posture_path(context, way_in[-1], manipulation.closing_posture)
         stages.append(
-            Stage(description=closing, path=path, start=way_in[-1], group=attempt.hand_group, changes_scene=True)
+            Stage(description=closing, path=path, start=way_in[-1], group=manipulation.hand_group, changes_scene=True)
         )
     else:
         last = stages[-1]
@@ -203,12 +210,12 @@ def _stages(
             description=last.description, path=last.path, start=last.start, group=last.group, changes_scene=True
         )
     if len(way_out) > 1:
-        path = pipelines.timed(attempt.group, way_out)
-        stages.append(Stage(description="retreat", path=path, start=closed, group=attempt.group))
+        path = pipelines.timed(manipulation.group, way_out)
+        stages.append(Stage(description="retreat", path=path, start=closed, group=manipulation.group))
     return stages
 
 
-def _posture_path(context: "Context", state: np.ndarray, posture: JointPath) -> JointPath:
+def _posture_path(context: "MoveGroupContext", state: np.ndarray, posture: JointPath) -> JointPath:
     """Return the hand's path from a state to a posture, in the posture's time or as fast as the joints allow."""
     model = context.monitor.model
     now = np.array([state[model.variable_index(name)] for name in posture.joints])

@@ -7,8 +7,8 @@ from trundle.base.diagnostics import TrundleError
 from trundle.planning.planning_scene import AllowedCollisionMatrix, PlacedShape, ShapeGeometry
 from trundle.spatial import Pose
 
-from .contents import CarriedObject, SceneContents, SceneObject
 from .frames import Frames
+from .scene_contents import CarriedObject, SceneContents, SceneObject
 from .shapes import mesh_of, plane_of, pose_of, primitive_of
 
 if TYPE_CHECKING:

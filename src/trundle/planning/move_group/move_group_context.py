@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from .trajectory_execution import TrajectoryExecution
 
 
-class Context(Struct, frozen=True, eq=False, kw_only=True):
+class MoveGroupContext(Struct, frozen=True, eq=False, kw_only=True):
     """The node with its parts."""
 
     node: Node
