@@ -17,6 +17,7 @@ from bench.table import Row, print_table
 
 BENCHES = {
     "graph": "topics against rospy: messages a second, ages, start of a node",
+    "roscpp": "C++ nodes against Debian's roscpp: messages a second, ages, start; compiling a node",
     "descriptions": "reading URDF and SDF against other readers",
     "commands": "trundle check and xacro against ROS' tools",
     "step": "stepping the RP2W against the engine's bare loop",

@@ -40,17 +40,15 @@ def run() -> list[Row]:
         _row(
             "Twist in one process",
             "messages/s",
-            lambda end, is_trundle: _flow(end, _TWIST, 30_000, one=is_trundle).rate,
+            lambda end, is_trundle: flow(end, _TWIST, 30_000, one=is_trundle).rate,
         ),
-        _row("Twist at 1 kHz, 99th percentile of ages", "ms", lambda end, _: _age(end)),
+        _row("Twist at 1 kHz, 99th percentile of ages", "ms", lambda end, _: age(end)),
         *_throughput("rospy, ", _modules_command),
-        _row(
-            "rospy, Twist at 1 kHz, 99th percentile of ages", "ms", lambda end, _: _age(end), trundle=_modules_command
-        ),
+        _row("rospy, Twist at 1 kHz, 99th percentile of ages", "ms", lambda end, _: age(end), trundle=_modules_command),
         _row(
             "rospy, start of a node to its first message",
             "s",
-            lambda end, _: _first_message(end),
+            lambda end, _: first_message(end),
             trundle=_modules_command,
         ),
         _row("topic list, start to exit", "s", lambda _, is_trundle: _topic_list(is_trundle), against="rostopic list"),
@@ -65,12 +63,12 @@ def _throughput(title: str, trundle: Callable[[], list[str]]) -> list[Row]:
         (_IMAGE, "Image 320x240", 3000, (None, 10)),
     ):
         for queue in queues:
-            pairs = _pairs(lambda end, _, kind=kind, count=count, queue=queue: _flow(end, kind, count, queue), trundle)
+            pairs = _pairs(lambda end, _, kind=kind, count=count, queue=queue: flow(end, kind, count, queue), trundle)
             for suffix, unit, values in (
-                ("", "messages/s", [[flow.rate for flow in pair] for pair in pairs]),
-                (", CPU of both ends", "µs", [[flow.cpu_us for flow in pair] for pair in pairs]),
+                ("", "messages/s", [[one.rate for one in pair] for pair in pairs]),
+                (", CPU of both ends", "µs", [[one.cpu_us for one in pair] for pair in pairs]),
             ):
-                rows.append(_as_row(f"{title}{name}, queue_size {queue}{suffix}", unit, values, "rospy, the same"))
+                rows.append(as_row(f"{title}{name}, queue_size {queue}{suffix}", unit, values, "rospy, the same"))
     return rows
 
 
@@ -114,7 +112,7 @@ def _row(
     against: str = "rospy",
     trundle: Callable[[], list[str]] = _trundle_command,
 ) -> Row:
-    return _as_row(name, unit, _pairs(measure, trundle), against)
+    return as_row(name, unit, _pairs(measure, trundle), against)
 
 
 _T = TypeVar("_T")
@@ -126,7 +124,8 @@ def _pairs(measure: Callable[[Sequence[str], bool], _T], trundle: Callable[[], l
     return [[measure(end, is_trundle) for end, is_trundle in ends] for _ in range(_RUNS)]
 
 
-def _as_row(name: str, unit: str, pairs: Sequence[Sequence[float]], against: str) -> Row:
+def as_row(name: str, unit: str, pairs: Sequence[Sequence[float]], against: str) -> Row:
+    """Return the row of pairs of values: Trundle's, and the peer's if there is one."""
     value = statistics.median(pair[0] for pair in pairs)
     if len(pairs[0]) == 1:
         return Row(name, value, unit, "", None)
@@ -134,7 +133,7 @@ def _as_row(name: str, unit: str, pairs: Sequence[Sequence[float]], against: str
 
 
 @dataclass(frozen=True, slots=True)
-class _Flow:
+class Flow:
     """Messages from a publisher to a subscriber, as fast as possible."""
 
     rate: float
@@ -143,21 +142,21 @@ class _Flow:
     """CPU time of both processes per message that arrives [µs]."""
 
 
-def _flow(end: Sequence[str], kind: str, count: int, queue: int | None = None, *, one: bool = False) -> _Flow:
+def flow(end: Sequence[str], kind: str, count: int, queue: int | None = None, *, one: bool = False) -> Flow:
     """Measure a flow from its first message to the last."""
     ends = _ends(end, ["both"] if one else ["sub", "pub"], kind, count, 0, queue)
     subscriber, publisher = ends[0], ends[-1]
     cpu_s = subscriber["sub_cpu"] + (0.0 if one else publisher["pub_cpu"])
-    return _Flow(count / (subscriber["end"] - publisher["start"]), 1e6 * cpu_s / count)
+    return Flow(count / (subscriber["end"] - publisher["start"]), 1e6 * cpu_s / count)
 
 
-def _age(end: Sequence[str]) -> float:
+def age(end: Sequence[str]) -> float:
     """Return the 99th percentile of message ages at 1 kHz [ms]."""
     ages = sorted(_ends(end, ["sub", "pub"], _TWIST, 3000, 1000, None)[0]["ages"])
     return ages[len(ages) * 99 // 100] * 1e3
 
 
-def _first_message(end: Sequence[str]) -> float:
+def first_message(end: Sequence[str]) -> float:
     """Return the time from a node's start to its first message at a waiting subscriber [s]."""
     with _fresh_master() as env, GraphLoop() as loop:
         arrived: list[float] = []
