@@ -46,8 +46,8 @@ class ActionClient:
 
     @property
     def has_server(self) -> bool:
-        """True if a server reports its status, and the goal topic has a subscriber."""
-        return self._has_status and self._goals.has_subscribers
+        """True if a server reports its status and is connected with goals and cancellations, which are lost before."""
+        return self._has_status and self._goals.has_subscribers and self._cancels.has_subscribers
 
     def send(
         self,
