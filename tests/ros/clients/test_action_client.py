@@ -69,6 +69,30 @@ def test_the_end_of_a_cancelled_goal_is_not_reported() -> None:
         graph.ready(node)
 
 
+def test_a_cancellation_is_sent_again_until_the_server_hears_it() -> None:
+    """The topics of an action are connected one after the other: a goal may run before cancellations are heard."""
+    with running_graph() as graph:
+        node, other = graph.node("/explorer"), graph.node("/driver")
+        client = ActionClient(node, "/drive", TYPE)
+        goals: list[Any] = []
+        cancelled: list[str] = []
+        other.subscribe("/drive/goal", f"{TYPE}ActionGoal", goals.append)
+        status = other.advertise("/drive/status", "actionlib_msgs/GoalStatusArray", queue_size=None)
+
+        def is_running() -> bool:
+            listed = [{"goal_id": {"id": goals[0].goal_id.id}, "status": 1}] if goals else []
+            status.publish({"status_list": listed})
+            return client.has_server
+
+        until(is_running)
+        client.send({}, lambda _state: None)
+        until(lambda: goals)
+        client.cancel()
+        other.subscribe("/drive/cancel", "actionlib_msgs/GoalID", lambda message: cancelled.append(message.id))
+        until(lambda: is_running() and cancelled)
+        assert cancelled[0] == goals[0].goal_id.id
+
+
 @pytest.mark.parametrize("remapped", ["client", "server"])
 def test_a_remapping_of_an_actions_name_holds_for_its_topics(remapped: str) -> None:
     """As actionlib's, whose topics are in the namespace of the remapped name."""

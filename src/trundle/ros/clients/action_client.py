@@ -10,7 +10,9 @@ if TYPE_CHECKING:
     from ..messages.raw_message import Message
 
 _PATIENCE_NS = 1_000_000_000
-"""Time after which a goal that no status lists is sent again [s]."""
+"""Time after which what the server did not get is sent again: a goal that no status lists, a cancellation [ns]."""
+_RUNNING = (0, 1)
+"""States of a goal that is pending or active, constants of actionlib_msgs/GoalStatus."""
 ABORTED = 4
 """State of a goal that the server gave up, a constant of actionlib_msgs/GoalStatus."""
 
@@ -32,6 +34,9 @@ class ActionClient:
         self._message: dict[str, Any] = {}
         """The goal, which is sent again if the server did not receive it."""
         self._sent_ns = 0
+        self._cancelled_id = ""
+        """Goal that was cancelled last, until the server has it no longer."""
+        self._cancelled_ns = 0
         self._has_status = False
         self._on_done: Callable[[int], object] | None = None
         self._on_feedback: Callable[[Message], object] | None = None
@@ -46,8 +51,8 @@ class ActionClient:
 
     @property
     def has_server(self) -> bool:
-        """True if a server reports its status and is connected with goals and cancellations, which are lost before."""
-        return self._has_status and self._goals.has_subscribers and self._cancels.has_subscribers
+        """True if a server reports its status, and the goal topic has a subscriber."""
+        return self._has_status and self._goals.has_subscribers
 
     def send(
         self,
@@ -74,16 +79,27 @@ class ActionClient:
         goal_id = self._goal_id
         self._goal_id, self._on_done, self._on_feedback = "", None, None  # before another thread gets the result
         if goal_id:
-            self._cancels.publish({"id": goal_id})
+            self._cancelled_id = goal_id
+            self._send_cancellation()
+
+    def _send_cancellation(self) -> None:
+        self._cancelled_ns = self._node.clock.now_ns()
+        self._cancels.publish({"id": self._cancelled_id})
 
     def _receive_status(self, message: Any) -> None:
-        """Send a goal again that the server does not know, because it was not connected yet."""
+        """Send a goal or a cancellation again that the server does not know, because it was not connected yet."""
         self._has_status = True
         now_ns = self._node.clock.now_ns()
         is_known = any(status.goal_id.id == self._goal_id for status in message.status_list)
         if self._goal_id and not is_known and not 0 <= now_ns - self._sent_ns < _PATIENCE_NS:
             self._sent_ns = now_ns
             self._goals.publish(self._message)
+        if self._cancelled_id and not 0 <= now_ns - self._cancelled_ns < _PATIENCE_NS:
+            goals = {status.goal_id.id: int(status.status) for status in message.status_list}
+            if goals.get(self._cancelled_id) in _RUNNING:
+                self._send_cancellation()
+            else:
+                self._cancelled_id = ""
 
     def _receive_result(self, message: Any) -> None:
         if message.status.goal_id.id == self._goal_id and self._on_done is not None:
