@@ -53,6 +53,7 @@ def test_the_timeline_seeks_to_before_the_robots_fall_and_runs_on(user: CartBuil
     user.until(lambda: user.is_paused, what="for the pause")
     user.open("Timeline")
     head = user.page.get_by_role("slider", name="Time")
+    user.until(lambda: float(head.get_attribute("aria-valuemin")) < float(head.get_attribute("aria-valuenow")))
     head.press("Home")
     user.until(lambda: not user.model("robot") or user.position("robot")[2] > 0.5, what="for the time before its fall")
     head.press("End")

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from lxml import etree
+from numpy.typing import NDArray
 from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 from tests.system.browser import running_page
@@ -75,6 +76,17 @@ def saved(user: PanelUser, kind: str) -> bytes:
     return Path(download.value.path()).read_bytes()
 
 
+def swing(user: PanelUser) -> NDArray[np.float64]:
+    """Return times and values (n, 2) of the arm's curve."""
+    _, *rows = csv.reader(saved(user, "CSV").decode().splitlines())
+    return np.array([(float(row[0]), float(row[3])) for row in rows if row[3] != ""]).reshape(-1, 2)
+
+
+def sees_swing(user: PanelUser) -> None:
+    """Wait until the arm's curve is two seconds long."""
+    user.until(lambda: len(swing(user)) > 10 and np.ptp(swing(user)[:, 0]) > 2.0, what="for two seconds of the curve")
+
+
 def test_an_empty_plot_offers_the_robots_position(chromium: Any, url: str) -> None:
     with contextlib.closing(PanelUser(chromium, url)) as user:
         user.open("Plots")
@@ -95,19 +107,18 @@ def test_plotted_values_match_the_simulation(user: PanelUser) -> None:
 
 
 def test_curves_are_saved_as_csv_parquet_and_svg(user: PanelUser) -> None:
-    user.until(lambda: legend(user, POSITION) is not None)
+    sees_swing(user)
     user.button("Pause").last.click()
-    head, *rows = csv.reader(saved(user, "CSV").decode().splitlines())
-    swing = np.array([(float(row[0]), float(row[3])) for row in rows if row[3] != ""])
+    head, *_ = csv.reader(saved(user, "CSV").decode().splitlines())
+    shown = swing(user)
     assert head == ["time", FORCE, GRAVITY, POSITION]
-    assert len(swing) > 10
-    assert np.diff(swing[:, 0]).min() > 0.0
-    assert np.ptp(swing[:, 1]) > 0.5, "the arm swings"
+    assert np.diff(shown[:, 0]).min() > 0.0
+    assert np.ptp(shown[:, 1]) > 0.5, "the arm swings"
 
     parquet = pytest.importorskip("pyarrow.parquet", reason="pyarrow is not installed: pip install 'trundle[sweep]'")
     table = parquet.read_table(io.BytesIO(saved(user, "Parquet"))).to_pydict()
     points = [(t, v) for c, t, v in zip(table["curve"], table["time"], table["value"], strict=True) if c == POSITION]
-    assert np.array(points)[: len(swing)] == pytest.approx(swing, abs=1e-9)  # more points arrive meanwhile
+    assert np.array(points)[: len(shown)] == pytest.approx(shown, abs=1e-9)  # more points arrive meanwhile
 
     svg = etree.fromstring(saved(user, "SVG"))
     lines = svg.findall(".//{http://www.w3.org/2000/svg}polyline")
@@ -118,6 +129,7 @@ def test_curves_are_saved_as_csv_parquet_and_svg(user: PanelUser) -> None:
 
 def test_scrubbing_shows_the_values_of_the_selected_time(user: PanelUser) -> None:
     """Seeking back keeps the curves, and the legend has the values of that time."""
+    sees_swing(user)
     user.open("Timeline")
     head = user.page.get_by_role("slider", name="Time")
     head.focus()
@@ -127,10 +139,9 @@ def test_scrubbing_shows_the_values_of_the_selected_time(user: PanelUser) -> Non
     shown_s = float(head.get_attribute("aria-valuenow"))
     assert shown_s < float(head.get_attribute("aria-valuemax"))
     user.open("Plots")
-    _, *rows = csv.reader(saved(user, "CSV").decode().splitlines())
-    swing = np.array([(float(row[0]), float(row[3])) for row in rows if row[3] != ""])
-    before = swing[swing[:, 0] <= shown_s + 1e-6]
-    assert swing[-1, 0] > shown_s + 0.5, "the curves are still there"
+    shown = swing(user)
+    before = shown[shown[:, 0] <= shown_s + 1e-6]
+    assert shown[-1, 0] > shown_s + 0.5, "the curves are still there"
     assert len(before) > 10
     user.until(
         lambda: legend(user, POSITION) == pytest.approx(before[-1, 1], abs=2e-3), what="for the value of that time"
