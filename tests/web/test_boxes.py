@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.page.panel_user import PATIENCE_MS
 
 _MEASURE = (Path(__file__).parent / "boxes.js").read_text()
 _OPEN_LEFT = "document.querySelector('.rail.left .b')?.click()"
@@ -47,6 +48,7 @@ class Shell:
 def tab(chromium: Any) -> Iterator[Any]:
     errors: list[str] = []
     tab = chromium.new_page(viewport={"width": SIZES[0][0], "height": SIZES[0][1]})
+    tab.set_default_timeout(PATIENCE_MS)
     tab.on("pageerror", lambda error: errors.append(error.stack))
     yield tab
     tab.close()

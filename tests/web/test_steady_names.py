@@ -3,6 +3,7 @@
 from typing import Any
 
 import pytest
+from tests.page.panel_user import PATIENCE_MS
 
 pytestmark = pytest.mark.slow
 
@@ -55,6 +56,7 @@ def _changes(tab: Any) -> list[str]:
 @pytest.mark.parametrize("panel", ["Plots", "Topics"])
 def test_names_keep_their_width(chromium: Any, served: str, panel: str) -> None:
     tab = chromium.new_page(viewport={"width": 1440, "height": 900})
+    tab.set_default_timeout(PATIENCE_MS)
     tab.goto(f"{served}/shell.html")
     tab.locator(".dv-tab", has_text=panel).first.click()
     tab.evaluate(_TOPICS)
@@ -67,6 +69,7 @@ def test_names_keep_their_width(chromium: Any, served: str, panel: str) -> None:
 @pytest.mark.parametrize("sheet", ["World", "Inspector", "Plots"])
 def test_names_keep_their_width_on_a_phone(chromium: Any, served: str, sheet: str) -> None:
     tab = chromium.new_page(viewport={"width": 390, "height": 844})
+    tab.set_default_timeout(PATIENCE_MS)
     tab.goto(f"{served}/shell.html")
     tab.evaluate(_TOPICS)
     tab.get_by_role("navigation").get_by_role("button", name=sheet).click()
@@ -77,6 +80,7 @@ def test_names_keep_their_width_on_a_phone(chromium: Any, served: str, sheet: st
 
 def test_the_measure_finds_a_name_that_moves(chromium: Any, served: str) -> None:
     tab = chromium.new_page(viewport={"width": 1440, "height": 900})
+    tab.set_default_timeout(PATIENCE_MS)
     tab.goto(f"{served}/shell.html")
     tab.locator(".dv-tab").first.wait_for()
     tab.add_style_tag(content=".steady { min-width: 0 !important } .jt .n { flex: 1 }")
