@@ -156,7 +156,7 @@ def _dwa() -> Row:
 
 
 def _teb() -> Row:
-    """A band of 3 m through the door, begun anew."""
+    """Optimize a new band of 3 m through the door."""
     x = np.linspace(4.0, 7.0, 26)
     path = np.stack([x, np.full(26, 3.45), np.zeros(26)], axis=1)
     obstacles = (_bands.obstacle_outline(_costs()) + 0.5) * _SIZE_M

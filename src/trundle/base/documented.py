@@ -1,4 +1,4 @@
-"""What `dir` and completion show of the objects that users hold."""
+"""Names that `dir` and completion list for the objects that users hold: those of the reference."""
 
 from collections.abc import Callable
 from typing import TypeVar

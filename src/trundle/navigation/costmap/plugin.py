@@ -15,7 +15,7 @@ from .costmap import Bounds, Costmap
 
 
 class LayerOptions(msgspec.Struct):
-    """What dynamic_reconfigure changes."""
+    """Parameters of a layer that dynamic_reconfigure changes."""
 
     enabled: bool = True
 
@@ -73,7 +73,7 @@ class LayerPlugin(ABC):
         self._is_wanted = self.options.enabled
 
     def match_size(self) -> None:
-        """Begin anew in a costmap of another size."""
+        """Allocate the layer again for a costmap of another size."""
         self.reset()
 
     @final

@@ -1,4 +1,4 @@
-"""What teb_local_planner publishes and receives beside plans."""
+"""Topics of teb_local_planner besides its plans: poses, markers, feedback; obstacles and via points."""
 
 import math
 from typing import Any
@@ -15,7 +15,7 @@ _LINE_STRIP, _LINE_LIST = 4, 5
 _MAX_POINTS = 5000
 _SPACING_M = 0.05
 _COLORS = ({"r": 1.0, "a": 1.0}, {"b": 1.0, "a": 1.0})
-"""Of the selected band, of the others."""
+"""Colors of the selected band and of the other candidates."""
 
 
 class BandTopics:
