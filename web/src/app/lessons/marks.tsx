@@ -2,7 +2,7 @@
 
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
-import { useEffect } from "preact/hooks";
+import { useLayoutEffect } from "preact/hooks";
 
 import { findModel } from "../../page/selection_lookup";
 import { bodiesOf } from "../../page/world_nodes";
@@ -55,7 +55,7 @@ function isCovered(element: Element, x: number, y: number): boolean {
 export function Rings({ shell }: { readonly shell: Shell }): JSX.Element {
   const parts = shell.lessons.step.value?.parts;
   const boxes = useSignal<readonly Box[]>([]);
-  useEffect(() => {
+  useLayoutEffect(() => {
     const measure = (): void => {
       const found = (parts ?? []).map(boxOf).filter((box) => box !== null);
       if (String(found) !== String(boxes.peek())) boxes.value = found;
