@@ -97,9 +97,9 @@ def test_a_hostile_lesson_is_shown_as_text_and_its_file_is_checked(reader: Lesso
     reader.until_done()
     reader.next()
     reader.at("The end")
-    assert reader.page.locator(".lesson-ring").count() == 0
+    reader.page.locator(".lesson-ring").first.wait_for(state="detached")
     reader.page.get_by_role("button", name="Finish").click()
-    assert reader.page.get_by_role("tab", name="Lesson").count() == 0
+    reader.page.get_by_role("tab", name="Lesson").wait_for(state="detached")
 
 
 @pytest.mark.slow
@@ -210,7 +210,7 @@ def test_the_lesson_of_the_rp2w_is_done_from_its_first_step_to_its_last(chromium
 
         reader.at("The same from Python")
         user.page.get_by_role("button", name="Finish").click()
-        assert user.page.get_by_role("tab", name="Lesson").count() == 0
+        user.page.get_by_role("tab", name="Lesson").wait_for(state="detached")
         user.close()
 
 
