@@ -29,11 +29,11 @@ $(BUILT): pyproject.toml constraints.txt CMakeLists.txt $(wildcard cpp/*/*.cc cp
 	@touch $@
 
 # The page's client, by Node from PyPI.
-$(CLIENT): $(WEB) web/node_modules/.package-lock.json
+$(CLIENT): $(WEB) web/node_modules/.ready
 	$(NPM) run --silent build
 	@touch $@
 
-web/node_modules/.package-lock.json: web/package-lock.json web/.npmrc | $(NODE)
+web/node_modules/.ready: web/package-lock.json web/.npmrc | $(NODE)
 	$(NPM) ci --silent
 	@touch $@
 
