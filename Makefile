@@ -34,7 +34,7 @@ $(CLIENT): $(WEB) web/node_modules/.ready
 	@touch $@
 
 web/node_modules/.ready: web/package-lock.json web/.npmrc | $(NODE)
-	$(NPM) ci --silent
+	$(NPM) ci --loglevel error
 	@touch $@
 
 $(NODE):
