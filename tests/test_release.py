@@ -1,5 +1,6 @@
 """Version, packaging and release files are consistent."""
 
+import importlib.metadata
 import re
 import runpy
 import shlex
@@ -10,6 +11,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from packaging.specifiers import SpecifierSet
 
 import trundle
 from trundle.base.extras import rospy_requirements
@@ -72,6 +74,18 @@ def test_the_container_has_all_files_of_the_build() -> None:
     included = {line[1:] for line in (ROOT / ".dockerignore").read_text().splitlines() if line.startswith("!")}
 
     assert {"src", "cpp", "web", "examples", "CMakeLists.txt", "pyproject.toml", "README.md", "LICENSE"} <= included
+
+
+def test_pinned_packages_install_on_the_python_of_debian_12() -> None:
+    """It is 3.11.2; a pin that needs a later one ends `make` there."""
+    pinned = {line.partition("==")[0] for line in (ROOT / "constraints.txt").read_text().splitlines()}
+    needs = {
+        package.name: package.metadata["Requires-Python"]
+        for package in importlib.metadata.distributions()
+        if package.name.lower().replace("_", "-") in pinned and package.metadata["Requires-Python"]
+    }
+    assert len(needs) > 50
+    assert {name: python for name, python in needs.items() if "3.11.2" not in SpecifierSet(python)} == {}
 
 
 def _pip_lines(*folders: str) -> list[tuple[str, list[str]]]:
