@@ -13,7 +13,7 @@ from trundle.base.supervisor import ProcessTree
 from trundle.gazebo.nodes import BuiltinReplacement, NodeHost, run_builtin_node
 from trundle.gazebo.nodes.catalog import BUILTIN_NODES
 from trundle.robots.names import parse_arguments
-from trundle.ros import Core, GraphLoop, Message, Messages, Node, Publisher
+from trundle.ros import GraphLoop, Message, Messages, Node, Publisher
 
 _CLOSE_DELAY_S = 0.1
 """Time for the last connections of ended processes [s]: a half-accepted one would leak when the loop ends."""
@@ -22,10 +22,10 @@ _CLOSE_DELAY_S = 0.1
 class NodeGraph:
     """A graph with a running master, a client and the stand-ins that a test starts."""
 
-    def __init__(self, loop: GraphLoop, core: Core) -> None:
+    def __init__(self, loop: GraphLoop, uri: str, client: Node | None = None) -> None:
         self.loop = loop
-        self.uri = core.uri
-        self.client = Node("/client", loop=loop, master_uri=core.uri)
+        self.uri = uri
+        self.client = client or Node("/client", loop=loop, master_uri=uri)
         self._running: list[tuple[Future[int], Node]] = []
         self._tree = ProcessTree()
 
@@ -109,6 +109,6 @@ def messages() -> Messages:
 @pytest.fixture
 def graph(messages: Messages) -> Iterator[NodeGraph]:
     with running_graph(messages) as core_graph:
-        node_graph = NodeGraph(core_graph.loop, core_graph.core)
+        node_graph = NodeGraph(core_graph.loop, core_graph.core.uri)
         yield node_graph
         node_graph.stop()

@@ -9,6 +9,7 @@ from trundle.ros import ActionResult, ActionServer
 
 from ..controllers import Outcome, path_from_message
 from ..error_codes import result_text
+from .preemption import preemptible
 
 if TYPE_CHECKING:
     from trundle.ros import Message
@@ -38,7 +39,7 @@ def offer_execute_trajectory_action(context: "MoveGroupContext") -> None:
         server.publish_feedback({"state": "IDLE"}, goal=goal)
         return _ended(code, result_text(code, is_empty=False, plan_only=False))
 
-    server = ActionServer(context.node, "execute_trajectory", "moveit_msgs/ExecuteTrajectory", execute)
+    server = ActionServer(context.node, "execute_trajectory", "moveit_msgs/ExecuteTrajectory", preemptible(execute))
 
 
 def offer_execute_trajectory_service(context: "MoveGroupContext") -> None:

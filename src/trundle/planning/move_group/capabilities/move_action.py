@@ -11,6 +11,7 @@ from ..error_codes import result_text
 from ..plan_execution import plan_and_execute
 from ..plan_outcome import PlanOutcome
 from ..scene import SceneContents, is_empty_state
+from .preemption import preemptible
 
 if TYPE_CHECKING:
     from trundle.ros import Message
@@ -57,7 +58,7 @@ def offer_move_action(context: "MoveGroupContext") -> None:
         report("IDLE")
         return _result(context, outcome, plan_only=bool(options.plan_only))
 
-    server = ActionServer(node, "move_group", "moveit_msgs/MoveGroup", execute)
+    server = ActionServer(node, "move_group", "moveit_msgs/MoveGroup", preemptible(execute))
 
 
 def changed_scene(context: "MoveGroupContext", diff: "Message") -> SceneContents | None:

@@ -19,6 +19,7 @@ from ..manipulation import (
     plan_manipulation,
 )
 from .move_action import changed_scene
+from .preemption import preemptible
 
 if TYPE_CHECKING:
     from trundle.ros import Message
@@ -89,7 +90,7 @@ def _offer(
         status = {ErrorCode.SUCCESS: "succeeded", ErrorCode.PREEMPTED: "preempted"}.get(code, "aborted")
         return ActionResult(status=status, result=fields, text=text)  # pyright: ignore[reportArgumentType]
 
-    server = ActionServer(node, name, kind, execute)
+    server = ActionServer(node, name, kind, preemptible(execute))
 
 
 async def _plan(

@@ -18,6 +18,7 @@ from ..controllers import JointPath
 from ..error_codes import result_text
 from ..plan_execution import execute_watched
 from ..plan_outcome import PlanOutcome
+from .preemption import preemptible
 
 if TYPE_CHECKING:
     from trundle.ros import Message
@@ -56,7 +57,8 @@ def offer_sequence_action(context: "MoveGroupContext") -> None:
         status = {ErrorCode.SUCCESS: "succeeded", ErrorCode.PREEMPTED: "preempted"}.get(code, "aborted")
         return ActionResult(status=status, result=result, text=text)  # pyright: ignore[reportArgumentType]
 
-    server = ActionServer(context.node, "sequence_move_group", "moveit_msgs/MoveGroupSequence", execute)
+    work = preemptible(execute, field="response")
+    server = ActionServer(context.node, "sequence_move_group", "moveit_msgs/MoveGroupSequence", work)
 
 
 async def _plan(context: "MoveGroupContext", request: "Message") -> tuple[ErrorCode, list[PlanOutcome], float]:
