@@ -46,16 +46,15 @@ class Judge:
         self.group: Any = moveit_commander.MoveGroupCommander(self.name, wait_for_servers=300)
         self.joints: list[str] = self.group.get_active_joints()
         rospy.wait_for_service("check_state_validity")
-        texts: Any = [rospy.get_param(f"/robot_description{more}") for more in ("", "_semantic")]
-        model = robot_model(
-            texts[0], texts[1], rospy.get_param("/robot_description_planning/joint_limits", {}), Diagnostics()
-        )
+        name: Any = rospy.search_param("robot_description") or "/robot_description"
+        texts: Any = [rospy.get_param(f"{name}{more}") for more in ("", "_semantic")]
+        self._limits: Any = rospy.get_param(f"{name}_planning/joint_limits", {})
+        model = robot_model(texts[0], texts[1], self._limits, Diagnostics())
         self._scene = PlanningScene(model, packages=Packages(dict(os.environ), start=Path.cwd()))
         self._validity: Any = rospy.ServiceProxy("check_state_validity", GetStateValidity, persistent=True)
         self._random = np.random.default_rng(1)
         self._recorded: list[tuple[list[str], list[float]]] | None = None
         self._tolerance = float(rospy.get_param("~tolerance", 0.01))
-        self._limits: Any = rospy.get_param("/robot_description_planning/joint_limits", {})
         self._bounds: Any = rospy.get_param("~bounds", {})
         rospy.Subscriber("joint_states", JointState, self._on_states, queue_size=1000)
         self.group.set_max_velocity_scaling_factor(1.0)
@@ -111,8 +110,8 @@ class Judge:
                 return values
         raise RuntimeError(f"no valid state in {_TRIES} random ones")
 
-    def faults_of_plan(self, trajectory: Any) -> list[str]:
-        """Return what is wrong with a trajectory: limits, order of times, contacts on the way."""
+    def faults_of_limits(self, trajectory: Any) -> list[str]:
+        """Return the limits that a trajectory exceeds, and a word on times that do not increase."""
         faults: list[str] = []
         names, points = list(trajectory.joint_names), trajectory.points
         states = np.array([point.positions for point in points])
@@ -134,13 +133,18 @@ class Judge:
                 most = max(abs(getattr(point, field)[column]) for point in points)
                 if most > limit[what] * (1.0 + _SLACK):
                     faults.append(f"{name}: {what} {most:.3f} > {limit[what]}")
+        return faults
+
+    def contacts_of_plan(self, trajectory: Any) -> list[str]:
+        """Return the first contact of a trajectory, also between its points."""
+        names, states = list(trajectory.joint_names), np.array([point.positions for point in trajectory.points])
         for before, after in pairwise(states):
             count = max(1, int(np.ceil(np.abs(after - before).max() / _STEP)))
             for share in np.arange(count) / count:
                 touched = self.touching(names, before + share * (after - before))
                 if touched:
-                    return [*faults, f"touches {', '.join(touched)}"]
-        return faults
+                    return [f"touches {', '.join(touched)}"]
+        return []
 
     def keep_state(self) -> None:
         """Take over the present positions of what the group does not move."""
@@ -168,7 +172,8 @@ class Judge:
         if not is_planned:
             return {"kind": kind, "fault": f"no plan ({code.val})", "values": values, "s": seconds}
         trajectory = plan.joint_trajectory
-        faults = self.faults_of_plan(trajectory)
+        limits, contacts = self.faults_of_limits(trajectory), self.contacts_of_plan(trajectory)
+        faults = [*limits, *contacts]
         self._recorded = []
         is_executed = self.group.execute(plan, wait=True)
         recorded, self._recorded = self._recorded, None
@@ -188,7 +193,8 @@ class Judge:
                 touched[pair] = True
         if touched:
             faults.append(f"on the way: {', '.join(touched)}")
-        result["states"] = len(recorded)
+            contacts.extend(touched)
+        result |= {"states": len(recorded), "limits": limits, "contacts": contacts}
         return {**result, "fault": "; ".join(faults)} if faults else result
 
     def _poses(self, link: str, values: list[float]) -> Any:
