@@ -4,6 +4,7 @@ import math
 from typing import Any
 
 import numpy as np
+import pytest
 from tests.planning.arms import arm
 from tests.planning.move_group.arm_graph import ARM, add, box, joint_goal, request, send, start_arm
 
@@ -141,6 +142,35 @@ def test_planners_are_listed_with_their_settings(graph: Any) -> None:
     assert listed[0].name == "OMPL"
     assert "RRTConnect" in listed[0].planner_ids
     assert dict(zip(found.keys, found.values, strict=True)) == {"type": "geometric::RRTConnect", "range": "0.7"}
+
+
+def test_optimizing_planners_are_answered_by_another_which_is_said(
+    graph: Any, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """As panda's launch files load them: pipelines of OMPL, CHOMP, STOMP and TrajOpt, and an adapter of CHOMP's."""
+    plugins = {
+        "ompl": "ompl_interface/OMPLPlanner",
+        "chomp": "chomp_interface/CHOMPPlanner",
+        "stomp": "stomp_moveit/StompPlannerManager",
+        "trajopt": "trajopt_interface/TrajOptPlanner",
+    }
+    pipelines: dict[str, Any] = {name: {"planning_plugin": plugin} for name, plugin in plugins.items()}
+    pipelines["chomp"]["request_adapters"] = (
+        "default_planner_request_adapters/FixWorkspaceBounds chomp/OptimizerAdapter"
+    )
+    start_arm(graph, planning_pipelines=pipelines, default_planning_pipeline="chomp")
+    ask = {**request(joint_goal({**_positions(graph), "joint_1": 0.5})), "pipeline_id": "stomp"}
+
+    answer = graph.call("/plan_kinematic_path", _PLAN, motion_plan_request=ask).motion_plan_response
+    listed = graph.call("/query_planner_interface", "moveit_msgs/QueryPlannerInterfaces").planner_interfaces
+
+    assert answer.error_code.val == _SUCCESS
+    assert {one.pipeline_id: one.name for one in listed}["trajopt"] == "TrajOpt"
+    assert {one.pipeline_id: list(one.planner_ids) for one in listed}["chomp"] == ["CHOMP"]
+    printed = capfd.readouterr().err
+    assert "[WARN]" in next(line for line in printed.splitlines() if "there is no chomp_interface/CHOMPPlanner" in line)
+    assert "there is no planning request adapter chomp/OptimizerAdapter; paths are planned without it" in printed
+    assert "there is no STOMP; RRTConnect planned, which answers the same requests" in printed
 
 
 def test_a_straight_line_keeps_the_cartesian_limits_of_the_parameters(graph: Any) -> None:

@@ -1,5 +1,6 @@
 """One planning pipeline: a planner with the adapters around it, by the names of parameters."""
 
+import re
 from typing import Any, cast
 
 from trundle.planning.planners import StartStateFixes, ompl_settings
@@ -11,6 +12,12 @@ from .robot_description import RobotDescription
 
 _PILZ = "pilz_industrial_motion_planner"
 _PILZ_PLANNERS = ("PTP", "LIN", "CIRC")
+_OMPL = "ompl_interface"
+"""Package of OMPL's plugin."""
+_OPTIMIZERS = {"chomp_interface": "CHOMP", "stomp_moveit": "STOMP", "trajopt_interface": "TrajOpt"}
+"""Package of a planning plugin → its only planner."""
+_ADAPTERS = "default_planner_request_adapters"
+"""Package of the adapters whose work is done here."""
 
 
 class Pipeline:
@@ -26,6 +33,9 @@ class Pipeline:
         self._changed: dict[tuple[str, str], dict[str, str]] = {}
         adapters = parameters.text("request_adapters", "").split()
         names = [adapter.rpartition("/")[2] for adapter in adapters]
+        others = [adapter for adapter in adapters if not adapter.startswith(f"{_ADAPTERS}/")]
+        if others:
+            node.log.warn(f"there is no planning request adapter {', '.join(others)}; paths are planned without it")
         timing = next((one for one in names if one.startswith("Add") and one.endswith("Parameterization")), "")
         self.timing: Method
         self.timing, note = find_method(timing)
@@ -37,7 +47,7 @@ class Pipeline:
             max_sampling_attempts=parameters.integer("max_sampling_attempts", 100),
         )
         node.log.info(f"Using planning interface '{self.description}'")
-        for one in names:
+        for one in [name for name, adapter in zip(names, adapters, strict=True) if adapter not in others]:
             node.log.info(f"Using planning request adapter '{one}'")
 
     @property
@@ -45,7 +55,23 @@ class Pipeline:
         """What query_planner_interface calls it."""
         if self.is_pilz:
             return "Pilz Industrial Motion Planner"
-        return {"ompl_interface/OMPLPlanner": "OMPL"}.get(self.plugin, self.plugin.partition("/")[0].upper())
+        return "OMPL" if self._package == _OMPL else self._optimizer or self.plugin
+
+    @property
+    def note(self) -> str:
+        """A sentence if another planner answers for the plugin; "" if the plugin's own does."""
+        if self.is_pilz or self._package == _OMPL:
+            return ""
+        return f"pipeline '{self.name}': there is no {self.plugin}; RRTConnect plans, and its paths are shortened"
+
+    @property
+    def _package(self) -> str:
+        return re.split("/|::", self.plugin)[0]
+
+    @property
+    def _optimizer(self) -> str:
+        """Only planner of the plugin; empty: it has several."""
+        return _OPTIMIZERS.get(self._package, "")
 
     @property
     def is_pilz(self) -> bool:
@@ -57,6 +83,8 @@ class Pipeline:
         """Names of planner configurations, as query_planner_interface lists them."""
         if self.is_pilz:
             return list(_PILZ_PLANNERS)
+        if self._optimizer:
+            return [self._optimizer]
         names = list(self._section("planner_configs"))
         return [*names, *(f"{group}[{name}]" for group in self._description.model.groups for name in names)]
 
@@ -82,6 +110,8 @@ class Pipeline:
         """Return the planner and its settings for a request."""
         if self.is_pilz:
             return planner_id or str(self._tree.get("default_planner_config") or "PTP"), None
+        if self._optimizer:
+            return self._optimizer, None
         config = dict(self._tree)
         name = planner_id.removeprefix(f"{group}[").removesuffix("]")
         changed = self._changed.get((group, name)) or self._changed.get(("", name))

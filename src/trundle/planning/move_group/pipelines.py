@@ -75,6 +75,9 @@ class Pipelines:
                 f"parameter default_planning_pipeline: no pipeline '{wanted}'; '{next(iter(self._pipelines))}' is used"
             )
         self.default = self._pipelines.get(wanted) or next(iter(self._pipelines.values()))
+        for pipeline in self.all:
+            if pipeline.note:
+                (node.log.warn if pipeline is self.default else node.log.info)(pipeline.note)
         self._seed = 0
 
     @property

@@ -1,4 +1,4 @@
-"""Planners by the names of OMPL, CHOMP and STOMP; those that there are not are answered by the nearest."""
+"""Planners by the names of OMPL, CHOMP, STOMP and TrajOpt; those that there are not are answered by the nearest."""
 
 from typing import Literal, TypeAlias
 
@@ -30,6 +30,7 @@ _NEAREST: dict[str, Algorithm] = {
     "STRIDE": "RRTConnect",
     "CHOMP": "RRTConnect",
     "STOMP": "RRTConnect",
+    "TrajOpt": "RRTConnect",
 }
 SEQUENTIAL = ("PTP", "LIN", "CIRC")
 """Planners of pilz_industrial_motion_planner."""
