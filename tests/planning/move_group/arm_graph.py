@@ -18,9 +18,10 @@ def start_arm(
     name: str = "move_group",
     zeros: Any = None,
     cartesian_limits: Any = None,
+    replaced: tuple[str, str] = ("", ""),
     **own: Any,
 ) -> None:
-    """Start move_group and the nodes beside it; the arm is at `home`, its hand open."""
+    """Start move_group and the nodes beside it; the arm is at `home`, its hand open; `replaced`: text of its URDF."""
     limits = {**_LIMITS, **{finger: {"has_acceleration_limits": True, "max_acceleration": 5.0} for finger in _FINGERS}}
     controllers = [
         {"name": "fake_arm_controller", "type": kind, "joints": ARM},
@@ -36,7 +37,7 @@ def start_arm(
     }
     graph.set_params(
         {
-            "/robot_description": (FOLDER / "six_axis.urdf").read_text(),
+            "/robot_description": (FOLDER / "six_axis.urdf").read_text().replace(*replaced),
             "/robot_description_semantic": (FOLDER / "six_axis.srdf").read_text(),
             "/robot_description_planning": {"joint_limits": limits, "cartesian_limits": cartesian_limits or {}},
             f"/{name}": settings,

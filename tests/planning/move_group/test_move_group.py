@@ -130,6 +130,22 @@ def test_a_cartesian_path_ends_where_an_object_is(graph: Any) -> None:
     assert 0.0 < blocked.fraction < 1.0
 
 
+@pytest.mark.parametrize("adapter", ["AddTimeParameterization", "AddTimeOptimalParameterization"])
+def test_a_joint_that_turns_without_end_goes_the_short_way(graph: Any, adapter: str) -> None:
+    wrist = '<joint name="joint_6" type="{}">'
+    adapters = f"default_planner_request_adapters/{adapter}"
+    start_arm(graph, replaced=(wrist.format("revolute"), wrist.format("continuous")), request_adapters=adapters)
+    home = _positions(graph)
+    start = {"joint_state": {"name": ["joint_6"], "position": [3.0]}, "is_diff": True}
+    ask = {**request(joint_goal({**{name: home[name] for name in ARM}, "joint_6": -3.0})), "start_state": start}
+
+    answer = graph.call("/plan_kinematic_path", _PLAN, motion_plan_request=ask).motion_plan_response
+
+    assert answer.error_code.val == _SUCCESS
+    turned = np.array([point.positions[5] for point in answer.trajectory.joint_trajectory.points])
+    assert np.ptp(turned) == pytest.approx(2.0 * math.pi - 6.0, abs=0.02)
+
+
 def test_planners_are_listed_with_their_settings(graph: Any) -> None:
     configs = {"RRTConnect": {"type": "geometric::RRTConnect", "range": 0.5}}
     start_arm(graph, planner_configs=configs, arm={"default_planner_config": "RRTConnect"})

@@ -24,7 +24,7 @@ from trundle.planning.planners import (
     plan,
 )
 from trundle.planning.planning_scene import AllowedCollisionMatrix, PlanningScene
-from trundle.planning.trajectories import Method, motion_limits, parameterize
+from trundle.planning.trajectories import Method, motion_limits, parameterize, unwound
 from trundle.robots.parameters import RosParameters
 from trundle.ros import Node
 from trundle.spatial import Pose
@@ -296,7 +296,7 @@ class Pipelines:
         """
         variables = self.model.groups[group].variables
         indices = self.model.indices(variables)
-        positions = np.asarray(states)[:, indices]
+        positions = unwound(np.asarray(states)[:, indices], self._turning(variables))
         if len(positions) < 2 or np.allclose(positions, positions[0], atol=1e-9):
             return JointPath(joints=tuple(variables), times_s=np.zeros(1), positions=positions[:1])
         made = parameterize(
@@ -305,7 +305,6 @@ class Pipelines:
             velocity_scaling=velocity_scaling,
             acceleration_scaling=acceleration_scaling,
             method=method,
-            turns=self._turning(variables),
         )
         return JointPath(
             joints=tuple(variables),
