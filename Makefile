@@ -78,7 +78,7 @@ $(VENV)/.large: $(READY)
 	  $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt "$$package" || \
 	  echo "PyPI brought no $$package: make test-all skips what uses it"; \
 	done
-	@{ $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[gpu]' && \
+	@{ $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --no-build-isolation --editable '.[gpu]' && \
 	  $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --no-deps mujoco-warp; } || \
 	  echo "PyPI brought no mujoco-warp: make test-all skips what uses it"
 	@touch $@
