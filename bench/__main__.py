@@ -32,6 +32,7 @@ BENCHES = {
     "images": "image topics",
     "arm_planning": "plans of an arm in four scenes",
     "kinematics": "inverse kinematics of an arm",
+    "commander": "start of a moveit_commander program",
     "navigation": "amcl and move_base in a house, twenty tours",
     "navigation_parts": "amcl, gmapping, costmaps and planners alone",
     "renderer": "pictures and scans against MuJoCo and PyBullet",
