@@ -19,9 +19,21 @@ def start_arm(
     zeros: Any = None,
     cartesian_limits: Any = None,
     replaced: tuple[str, str] = ("", ""),
+    srdf: str = "",
     **own: Any,
 ) -> None:
-    """Start move_group and the nodes beside it; the arm is at `home`, its hand open; `replaced`: text of its URDF."""
+    """Start move_group and the nodes beside it; the arm is at `home`, its hand open.
+
+    Args:
+        graph: the graph.
+        kind: type of the fake controllers.
+        name: name of move_group.
+        zeros: positions that joint_state_publisher has at first.
+        cartesian_limits: of pilz' planners.
+        replaced: text of the URDF, and what is there instead.
+        srdf: text in place of the arm's SRDF.
+        own: more parameters of move_group.
+    """
     limits = {**_LIMITS, **{finger: {"has_acceleration_limits": True, "max_acceleration": 5.0} for finger in _FINGERS}}
     controllers = [
         {"name": "fake_arm_controller", "type": kind, "joints": ARM},
@@ -38,7 +50,7 @@ def start_arm(
     graph.set_params(
         {
             "/robot_description": (FOLDER / "six_axis.urdf").read_text().replace(*replaced),
-            "/robot_description_semantic": (FOLDER / "six_axis.srdf").read_text(),
+            "/robot_description_semantic": srdf or (FOLDER / "six_axis.srdf").read_text(),
             "/robot_description_planning": {"joint_limits": limits, "cartesian_limits": cartesian_limits or {}},
             f"/{name}": settings,
             "/joint_state_publisher": {

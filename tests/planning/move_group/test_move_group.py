@@ -5,13 +5,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.planning.arms import arm
+from tests.planning.arms import FOLDER, arm
 from tests.planning.move_group.arm_graph import ARM, add, box, joint_goal, request, send, start_arm
 
 from trundle.planning.kinematics import Kinematics
 
 _AWAY = {"joint_1": 0.9, "joint_2": 0.3, "joint_3": -0.4, "joint_4": 0.0, "joint_5": 0.5, "joint_6": 0.2}
-_SUCCESS, _NO_IK, _IN_COLLISION, _NO_GROUP, _NO_FRAME = 1, -31, -12, -15, -21
+_SUCCESS, _NO_IK, _IN_COLLISION, _NO_GROUP, _NO_FRAME, _CONTROL_FAILED = 1, -31, -12, -15, -21, -4
 _PLAN, _MOVE = "moveit_msgs/GetMotionPlan", "moveit_msgs/MoveGroup"
 
 
@@ -144,6 +144,30 @@ def test_a_joint_that_turns_without_end_goes_the_short_way(graph: Any, adapter: 
     assert answer.error_code.val == _SUCCESS
     turned = np.array([point.positions[5] for point in answer.trajectory.joint_trajectory.points])
     assert np.ptp(turned) == pytest.approx(2.0 * math.pi - 6.0, abs=0.02)
+
+
+def test_a_base_on_the_floor_is_planned_with_its_arm_but_not_driven(
+    graph: Any, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """A planar joint's way is a multi_dof_joint_trajectory, which no controller takes."""
+    srdf = (FOLDER / "six_axis.srdf").read_text().replace('type="fixed" parent', 'type="planar" parent')
+    whole = '<group name="whole"><joint name="fixed_base"/><group name="arm"/></group></robot>'
+    start_arm(graph, srdf=srdf.replace("</robot>", whole))
+    home = _positions(graph)
+    wanted = {**{name: home[name] for name in ARM}, "joint_1": 0.5, "fixed_base/x": 1.0, "fixed_base/theta": 0.5}
+    ask = request(joint_goal(wanted), group="whole")
+
+    result = send(graph, "move_group", _MOVE, {"request": ask, "planning_options": {}})
+
+    assert result.result.error_code.val == _CONTROL_FAILED
+    assert "no controller takes trajectories of planar and floating joints: fixed_base" in capfd.readouterr().err
+    trajectory = result.result.planned_trajectory
+    assert list(trajectory.joint_trajectory.joint_names) == ARM
+    assert list(trajectory.multi_dof_joint_trajectory.joint_names) == ["fixed_base"]
+    first, last = (trajectory.multi_dof_joint_trajectory.points[index].transforms[0] for index in (0, -1))
+    assert first.translation.x == 0.0
+    assert last.translation.x == pytest.approx(1.0, abs=2e-3)
+    assert 2.0 * math.atan2(last.rotation.z, last.rotation.w) == pytest.approx(0.5, abs=2e-3)
 
 
 def test_planners_are_listed_with_their_settings(graph: Any) -> None:

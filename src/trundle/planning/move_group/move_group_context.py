@@ -7,12 +7,12 @@ from msgspec import Struct
 
 from trundle.ros import Node
 
-from .controllers import JointPath, path_message
+from .controllers import JointPath
 from .pipelines import Pipelines
 from .plan_outcome import PlanOutcome
 from .planning_scene_monitor import PlanningSceneMonitor
 from .robot_description import RobotDescription
-from .scene import SceneContents, state_fields
+from .scene import SceneContents, state_fields, trajectory_fields
 
 if TYPE_CHECKING:
     from trundle.ros import Message, Publisher
@@ -53,7 +53,7 @@ class MoveGroupContext(Struct, frozen=True, eq=False, kw_only=True):
         """Return the fields of a moveit_msgs/RobotTrajectory; None: an empty one."""
         if path is None:
             return {}
-        return {"joint_trajectory": path_message(path, frame=self.monitor.model.model_frame)}
+        return trajectory_fields(self.monitor.model, path)
 
     def state_fields(self, positions: np.ndarray, contents: SceneContents | None = None) -> dict[str, Any]:
         """Return the fields of a moveit_msgs/RobotState."""

@@ -90,6 +90,10 @@ class TrajectoryExecution:
             self._node.log.error("Cannot push a new trajectory while another is being executed")
             return Outcome.ABORTED
         moving = [name for name in path.joints if self._is_actuated(name)]
+        base = self._moved_base(path)
+        if base:
+            self._node.log.error(f"no controller takes trajectories of planar and floating joints: {', '.join(base)}")
+            return Outcome.ABORTED
         if len(path.times_s) == 0 or path.duration_s == 0.0:
             return Outcome.SUCCEEDED  # nothing to do, and controllers refuse points that are due at once
         if not moving:
@@ -112,6 +116,15 @@ class TrajectoryExecution:
             return False
         joint = self._model.joint(name)
         return bool(joint.variables) and joint.mimic is None and not joint.passive
+
+    def _moved_base(self, path: JointPath) -> list[str]:
+        """Return the planar and floating joints that a path moves."""
+        joints = {v: joint.name for joint in self._model.joints if len(joint.variables) > 1 for v in joint.variables}
+        spans = np.ptp(path.positions, axis=0)
+        moved = (
+            joints[name] for name, span in zip(path.joints, spans, strict=True) if name in joints and span > _STILL
+        )
+        return list(dict.fromkeys(moved))
 
     # -- which controllers
 

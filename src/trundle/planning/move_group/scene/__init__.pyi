@@ -10,3 +10,4 @@ from .state_messages import (
     positions_of as positions_of,
     state_fields as state_fields,
 )
+from .trajectory_messages import trajectory_fields as trajectory_fields

@@ -53,7 +53,7 @@ def state_fields(
             "header": header,
             "joint_names": [joint.name for joint in multiple],
             "transforms": [
-                _transform([float(positions[model.variable_index(v)]) for v in j.variables]) for j in multiple
+                transform_fields([float(positions[model.variable_index(v)]) for v in j.variables]) for j in multiple
             ],
         },
         "is_diff": is_diff,
@@ -63,7 +63,8 @@ def state_fields(
     return fields
 
 
-def _transform(values: list[float]) -> dict[str, Any]:
+def transform_fields(values: list[float]) -> dict[str, Any]:
+    """Return the fields of a geometry_msgs/Transform of a planar joint's three variables, or a floating one's seven."""
     if len(values) == 3:
         pose = Pose.from_rpy(values[0], values[1], 0.0, 0.0, 0.0, values[2])
     else:
