@@ -35,6 +35,7 @@ export function Legend({ state, plot }: { readonly state: PlotsState; readonly p
             state={state}
             plot={plot}
             line={line}
+            names={lines.map(({ curve }) => curve.name)}
             reference={lines.find(({ curve, isReference }) => isReference && curve === line.curve)}
             time={time ?? line.curve.points.lastX}
           />
@@ -47,13 +48,15 @@ interface LegendRowProps {
   readonly state: PlotsState;
   readonly plot: Plot;
   readonly line: Line;
+  /** Names of all curves. */
+  readonly names: readonly string[];
   /** Line of the recording that the world is compared with. */
   readonly reference: Line | undefined;
   /** Time of the values [s]; null: there is none yet. */
   readonly time: number | null;
 }
 
-function LegendRow({ state, plot, line, reference, time }: LegendRowProps): JSX.Element {
+function LegendRow({ state, plot, line, names, reference, time }: LegendRowProps): JSX.Element {
   const { curve, index } = line;
   const textOf = (of: Line): string => {
     const value = time === null ? null : valueAt(of, time);
@@ -63,7 +66,7 @@ function LegendRow({ state, plot, line, reference, time }: LegendRowProps): JSX.
   return (
     <li class={isDashed(index) ? "dash" : ""} style={color}>
       <span class="n" title={line.name}>
-        <Name text={curve.name} />
+        <Name text={curve.name} beside={names} />
       </span>
       <span class="num">
         <b>
