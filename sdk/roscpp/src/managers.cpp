@@ -25,7 +25,7 @@ size_t TopicManager::getNumPublishers(const std::string& topic) {
 
 bool TopicManager::isLatched(const std::string& topic) {
   const std::shared_ptr<Publication> publication = topics::publication(topic);
-  return publication && publication->is_latched;
+  return publication && publication->isLatched();
 }
 
 const ConnectionManagerPtr& ConnectionManager::instance() {

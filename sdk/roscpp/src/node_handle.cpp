@@ -179,6 +179,7 @@ Publisher NodeHandle::advertise(AdvertiseOptions& options) {
   callbacks->queue = options.callback_queue;
   callbacks->tracked = options.tracked_object;
   callbacks->is_tracked = static_cast<bool>(options.tracked_object);
+  callbacks->is_latched = options.latch;
   const std::shared_ptr<Publication> publication = topics::advertise(options, callbacks);
   if (!publication) return Publisher();
   const auto impl = boost::make_shared<Publisher::Impl>();
@@ -259,7 +260,7 @@ std::string Publisher::getTopic() const { return impl_ ? impl_->topic : ""; }
 uint32_t Publisher::getNumSubscribers() const {
   return isValid() ? static_cast<uint32_t>(impl_->publication->linkCount()) : 0;
 }
-bool Publisher::isLatched() const { return isValid() && impl_->publication->is_latched; }
+bool Publisher::isLatched() const { return isValid() && impl_->callbacks->is_latched; }
 
 bool Publisher::accepts(const char* md5sum, const char* datatype) const {
   if (!isValid()) {
@@ -274,7 +275,7 @@ bool Publisher::accepts(const char* md5sum, const char* datatype) const {
 }
 
 void Publisher::publish(const std::function<SerializedMessage()>& serialize, SerializedMessage& message) const {
-  impl_->publication->publish(serialize, message);
+  impl_->publication->publish(impl_->callbacks, serialize, message);
 }
 
 void Subscriber::shutdown() {

@@ -46,10 +46,10 @@ Publication::Publication(const AdvertiseOptions& options)
       datatype(options.datatype),
       definition(options.message_definition),
       queue_size(options.queue_size),
-      is_latched(options.latch),
       has_header(options.has_header) {}
 
-void Publication::publish(const std::function<SerializedMessage()>& serialize, SerializedMessage& message) {
+void Publication::publish(const boost::shared_ptr<Callbacks>& publisher,
+                          const std::function<SerializedMessage()>& serialize, SerializedMessage& message) {
   std::vector<boost::shared_ptr<SubscriberLink>> links;
   uint32_t sequence = 0;
   {
@@ -62,18 +62,18 @@ void Publication::publish(const std::function<SerializedMessage()>& serialize, S
     const std::shared_ptr<Subscription> subscription = link->local.lock();
     return subscription && (!message.message || subscription->needsBytes(*message.type_info));
   });
-  if (has_remote || is_latched || needs_bytes) {
+  if (has_remote || publisher->is_latched || needs_bytes) {
     const SerializedMessage bytes = serialize();
     message.buf = bytes.buf;
     message.num_bytes = bytes.num_bytes;
     message.message_start = bytes.message_start;
     if (has_header && message.num_bytes >= 8) std::memcpy(message.message_start, &sequence, sizeof(sequence));
   }
-  if (is_latched) {
+  if (publisher->is_latched) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    last_ = message;
-    last_.message.reset();  // the program may change the object
-    last_.type_info = nullptr;
+    publisher->last = message;
+    publisher->last.message.reset();  // the program may change the object
+    publisher->last.type_info = nullptr;
   }
   for (const auto& link : links) link->send(message);
 }
@@ -104,14 +104,12 @@ void Publication::removeCallbacks(const boost::shared_ptr<Callbacks>& callbacks)
 
 void Publication::addLink(const boost::shared_ptr<SubscriberLink>& link) {
   std::vector<boost::shared_ptr<Callbacks>> callbacks;
-  SerializedMessage last;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     links_.push_back(link);
     callbacks = callbacks_;
-    last = last_;
   }
-  if (is_latched && last.buf) link->send(last);
+  for (const SerializedMessage& last : latched()) link->send(last);
   for (const auto& entry : callbacks) notify(entry, link, true);
 }
 
@@ -133,9 +131,17 @@ void Publication::closeLinks() {
     else removeLink(link);
 }
 
-SerializedMessage Publication::latched() const {
+bool Publication::isLatched() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return last_;
+  return std::any_of(callbacks_.begin(), callbacks_.end(), [](const auto& entry) { return entry->is_latched; });
+}
+
+std::vector<SerializedMessage> Publication::latched() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::vector<SerializedMessage> messages;
+  for (const auto& entry : callbacks_)
+    if (entry->last.buf) messages.push_back(entry->last);
+  return messages;
 }
 
 size_t Publication::linkCount() const {

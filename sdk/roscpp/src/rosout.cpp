@@ -34,9 +34,11 @@ class Appender : public console::LogAppender {
  public:
   void log(console::Level level, const char* text, const char* file, const char* function, int line) override {
     std::shared_ptr<Publication> publication;
+    boost::shared_ptr<Publication::Callbacks> publisher;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       publication = publication_;
+      publisher = publisher_;
     }
     if (!publication || is_publishing || publication->linkCount() == 0) return;
     is_publishing = true;
@@ -50,17 +52,20 @@ class Appender : public console::LogAppender {
     message->line = static_cast<uint32_t>(line);
     message->topics = topics::advertised();
     SerializedMessage bytes;
-    publication->publish([&message] { return serialization::serializeMessage(*message); }, bytes);
+    publication->publish(publisher, [&message] { return serialization::serializeMessage(*message); }, bytes);
     is_publishing = false;
   }
-  void set(const std::shared_ptr<Publication>& publication) {
+  void set(const std::shared_ptr<Publication>& publication,
+           const boost::shared_ptr<Publication::Callbacks>& publisher) {
     const std::lock_guard<std::mutex> lock(mutex_);
     publication_ = publication;
+    publisher_ = publisher;
   }
 
  private:
   std::mutex mutex_;
   std::shared_ptr<Publication> publication_;
+  boost::shared_ptr<Publication::Callbacks> publisher_;
 };
 
 Appender& appender() {
@@ -112,7 +117,8 @@ void start() {
   const auto callbacks = boost::make_shared<Publication::Callbacks>();
   callbacks->queue = &immediate();
   callbacks->is_tracked = false;
-  appender().set(topics::advertise(options, callbacks));
+  callbacks->is_latched = options.latch;
+  appender().set(topics::advertise(options, callbacks), callbacks);
   static bool is_registered = false;
   if (!is_registered) console::register_appender(&appender());
   is_registered = true;
@@ -123,7 +129,7 @@ void serveLoggers() {
   serve<roscpp::SetLoggerLevel>("~set_logger_level", setLoggerLevel);
 }
 
-void stop() { appender().set(nullptr); }
+void stop() { appender().set(nullptr, nullptr); }
 
 }  // namespace rosout
 }  // namespace ros

@@ -140,8 +140,8 @@ void Subscription::addCallback(const SubscribeOptions& options) {
   }
   for (const auto& link : latched)
     queue->push(std::make_shared<LazyMessage>(options.helper, link->last, link->header), link->header, true);
-  const SerializedMessage last = local ? local->latched() : SerializedMessage();
-  if (last.buf) queue->push(std::make_shared<LazyMessage>(options.helper, last, local_header_), local_header_, true);
+  for (const SerializedMessage& last : local ? local->latched() : std::vector<SerializedMessage>())
+    queue->push(std::make_shared<LazyMessage>(options.helper, last, local_header_), local_header_, true);
 }
 
 bool Subscription::removeCallback(const SubscriptionCallbackHelperPtr& helper) {
@@ -292,7 +292,7 @@ void Subscription::connectLocally(const std::shared_ptr<Publication>& publicatio
   link->subscriber = this_node::getName();
   link->local = shared_from_this();
   link->local_header = boost::make_shared<M_string>(M_string{{"callerid", this_node::getName()},
-                                                             {"latching", publication->is_latched ? "1" : "0"},
+                                                             {"latching", publication->isLatched() ? "1" : "0"},
                                                              {"md5sum", publication->md5sum},
                                                              {"message_definition", publication->definition},
                                                              {"topic", topic},

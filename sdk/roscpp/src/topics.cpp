@@ -168,7 +168,7 @@ bool acceptSubscriber(const std::shared_ptr<net::FrameConnection>& connection, c
     return true;
   }
   connection->send(net::encodeHeader({{"callerid", this_node::getName()},
-                                      {"latching", publication->is_latched ? "1" : "0"},
+                                      {"latching", publication->isLatched() ? "1" : "0"},
                                       {"md5sum", publication->md5sum},
                                       {"message_definition", publication->definition},
                                       {"topic", topic},

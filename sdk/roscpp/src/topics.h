@@ -36,30 +36,35 @@ class SubscriberLink {
 /** A topic that this node publishes, by one or several publishers. */
 class Publication {
  public:
-  /** Callbacks of one publisher. */
+  /** What one publisher of the topic has of its own. */
   struct Callbacks {
     SubscriberStatusCallback connect, disconnect;
     CallbackQueueInterface* queue;
     boost::weak_ptr<void const> tracked;
-    bool is_tracked;
+    bool is_tracked, is_latched;
+    /** Last message of a latched publisher; it has no bytes before the first message. */
+    SerializedMessage last;
   };
 
   explicit Publication(const AdvertiseOptions& options);
 
-  void publish(const std::function<SerializedMessage()>& serialize, SerializedMessage& message);
+  void publish(const boost::shared_ptr<Callbacks>& publisher, const std::function<SerializedMessage()>& serialize,
+               SerializedMessage& message);
   void addCallbacks(const boost::shared_ptr<Callbacks>& callbacks);
   void removeCallbacks(const boost::shared_ptr<Callbacks>& callbacks);
   void addLink(const boost::shared_ptr<SubscriberLink>& link);
   void removeLink(const boost::shared_ptr<SubscriberLink>& link);
   void closeLinks();
-  /** Last message of a latched topic; it has no bytes before the first message. */
-  SerializedMessage latched() const;
+  /** True if one of the publishers is latched. */
+  bool isLatched() const;
+  /** Last messages of the latched publishers. */
+  std::vector<SerializedMessage> latched() const;
   size_t linkCount() const;
   std::vector<boost::shared_ptr<SubscriberLink>> links() const;
 
   const std::string topic, md5sum, datatype, definition;
   const size_t queue_size;
-  const bool is_latched, has_header;
+  const bool has_header;
   /** Number of publishers, and of the topics that were advertised before. */
   int owners = 0;
   uint64_t order = 0;
@@ -70,7 +75,6 @@ class Publication {
   mutable std::mutex mutex_;
   std::vector<boost::shared_ptr<SubscriberLink>> links_;
   std::vector<boost::shared_ptr<Callbacks>> callbacks_;
-  SerializedMessage last_;
   uint32_t sequence_ = 0;
 };
 

@@ -15,13 +15,20 @@ constexpr int32_t kMaxSec = std::numeric_limits<int32_t>::max(), kMinSec = std::
 constexpr int32_t kMaxNSec = 999999999;
 
 void print(std::ostream& out, int64_t total, int32_t sec) {
-  const char fill = out.fill('0');
+  const std::streamsize width = out.width();
   const std::ios::fmtflags flags = out.flags();
   // The sign is that of the whole value: -0.5 s is sec -1, nsec 500000000.
-  if (total < 0 && sec < 0) out << '-' << std::dec << (-total) / kSecond << '.' << std::setw(9) << (-total) % kSecond;
-  else out << std::dec << total / kSecond << '.' << std::setw(9) << total % kSecond;
+  const bool is_negative = total < 0 && sec < 0;
+  if (is_negative) {
+    out << '-';
+    total = -total;
+  }
+  out << std::dec << total / kSecond << '.';
+  const char fill = out.fill('0');
+  out << std::setw(9) << total % kSecond;
   out.fill(fill);
   out.flags(flags);
+  out.width(width);
 }
 
 }  // namespace

@@ -33,11 +33,14 @@ Clock& clock() {
 
 template <class T>
 void print(std::ostream& out, const T& value) {
-  const char fill = out.fill('0');
+  const std::streamsize width = out.width();
   const std::ios::fmtflags flags = out.flags();
-  out << std::dec << value.sec << '.' << std::setw(9) << value.nsec;
+  out << std::dec << value.sec << '.';
+  const char fill = out.fill('0');
+  out << std::setw(9) << value.nsec;
   out.fill(fill);
   out.flags(flags);
+  out.width(width);
 }
 
 template <class T, class ChronoClock>

@@ -7,6 +7,7 @@
 #include <locale>
 #include <sstream>
 
+#include "xmlrpcpp/XmlRpcUtil.h"
 #include "xmlrpcpp/XmlRpcValue.h"
 
 namespace XmlRpc {
@@ -14,65 +15,6 @@ namespace {
 
 constexpr int kMaxDepth = 100;
 constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  result.reserve(text.size());
-  for (const char c : text) switch (c) {
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '&': result += "&amp;"; break;
-      case '"': result += "&quot;"; break;
-      case '\'': result += "&apos;"; break;
-      default: result += c;
-    }
-  return result;
-}
-
-void appendUtf8(std::string& out, unsigned long code) {
-  if (code < 0x80) {
-    out += static_cast<char>(code);
-  } else if (code < 0x800) {
-    out += static_cast<char>(0xC0 | code >> 6);
-    out += static_cast<char>(0x80 | (code & 0x3F));
-  } else if (code < 0x10000) {
-    out += static_cast<char>(0xE0 | code >> 12);
-    out += static_cast<char>(0x80 | (code >> 6 & 0x3F));
-    out += static_cast<char>(0x80 | (code & 0x3F));
-  } else if (code < 0x110000) {
-    out += static_cast<char>(0xF0 | code >> 18);
-    out += static_cast<char>(0x80 | (code >> 12 & 0x3F));
-    out += static_cast<char>(0x80 | (code >> 6 & 0x3F));
-    out += static_cast<char>(0x80 | (code & 0x3F));
-  }
-}
-
-std::string unescaped(const std::string& text) {
-  std::string result;
-  result.reserve(text.size());
-  for (size_t i = 0; i < text.size(); ++i) {
-    const size_t end = text[i] == '&' ? text.find(';', i) : std::string::npos;
-    if (end == std::string::npos || end - i > 10) {
-      result += text[i];
-      continue;
-    }
-    const std::string name = text.substr(i + 1, end - i - 1);
-    if (name == "lt") result += '<';
-    else if (name == "gt") result += '>';
-    else if (name == "amp") result += '&';
-    else if (name == "quot") result += '"';
-    else if (name == "apos") result += '\'';
-    else if (name.size() > 1 && name[0] == '#')
-      appendUtf8(result, name[1] == 'x' ? std::strtoul(name.c_str() + 2, nullptr, 16)
-                                        : std::strtoul(name.c_str() + 1, nullptr, 10));
-    else {
-      result += text[i];
-      continue;
-    }
-    i = end;
-  }
-  return result;
-}
 
 std::string base64(const std::vector<char>& bytes) {
   std::string text;
@@ -187,13 +129,13 @@ class XmlReader {
       out.become(XmlRpcValue::TypeStruct);
       return is_empty || members(out, depth);
     }
-    out = XmlRpcValue(unescaped(text()));  // text without an element is a string
+    out = XmlRpcValue(XmlRpcUtil::xmlDecode(text()));  // text without an element is a string
     return true;
   }
 
   static bool scalar(XmlRpcValue& out, const std::string& type, const std::string& content) {
     if (type == "string") {
-      out = XmlRpcValue(unescaped(content));
+      out = XmlRpcValue(XmlRpcUtil::xmlDecode(content));
       return true;
     }
     if (type == "base64") {
@@ -252,7 +194,7 @@ class XmlReader {
     bool is_empty = false;
     while (open("member", is_empty)) {
       if (is_empty || !open("name", is_empty)) return false;
-      const std::string name = is_empty ? "" : unescaped(text());
+      const std::string name = is_empty ? "" : XmlRpcUtil::xmlDecode(text());
       if (!is_empty && !close("name")) return false;
       XmlRpcValue element;
       if (!value(element, depth + 1) || !close("member")) return false;
@@ -281,7 +223,7 @@ std::string XmlRpcValue::toXml() const {
     case TypeBoolean: return std::string("<value><boolean>") + (_value.asBool ? "1" : "0") + "</boolean></value>";
     case TypeInt: return "<value><i4>" + std::to_string(_value.asInt) + "</i4></value>";
     case TypeDouble: return "<value><double>" + number(_value.asDouble) + "</double></value>";
-    case TypeString: return "<value>" + escaped(*_value.asString) + "</value>";
+    case TypeString: return "<value>" + XmlRpcUtil::xmlEncode(*_value.asString) + "</value>";
     case TypeDateTime: {
       const struct tm& t = *_value.asTime;
       char text[100];
@@ -298,7 +240,7 @@ std::string XmlRpcValue::toXml() const {
     case TypeStruct: {
       std::string xml = "<value><struct>";
       for (const auto& member : *_value.asStruct)
-        xml += "<member><name>" + escaped(member.first) + "</name>" + member.second.toXml() + "</member>";
+        xml += "<member><name>" + XmlRpcUtil::xmlEncode(member.first) + "</name>" + member.second.toXml() + "</member>";
       return xml + "</struct></value>";
     }
     default: return "<value></value>";

@@ -4,7 +4,7 @@
 
 namespace ros {
 
-/** Preferred transports of a subscriber; only TCPROS is used. */
+/** Preferred transports of a subscriber; TCPROS is used also where UDPROS is preferred, as with publishers of rospy. */
 class TransportHints {
  public:
   TransportHints& reliable() { return add("TCP"); }

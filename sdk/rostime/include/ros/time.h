@@ -50,7 +50,7 @@ class TimeBase {
     return result;
   }
   T operator+(const D& o) const { return at(total() + o.toNSec()); }
-  T operator-(const D& o) const { return at(total() - o.toNSec()); }
+  T operator-(const D& o) const { return *this + -o; }
   T& operator+=(const D& o) { return self() = *this + o; }
   T& operator-=(const D& o) { return self() = *this - o; }
   bool operator==(const T& o) const { return sec == o.sec && nsec == o.nsec; }

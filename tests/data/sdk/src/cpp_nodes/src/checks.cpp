@@ -6,6 +6,7 @@
 #include <ros/ros.h>
 #include <std_msgs/Int32.h>
 #include <std_msgs/String.h>
+#include <xmlrpcpp/XmlRpc.h>
 
 #include <iostream>
 
@@ -40,13 +41,16 @@ void checkTime() {
   std::stringstream text;
   text << ros::Time(3, 4) << " " << ros::Duration(-1.25);
   CHECK(text.str() == "3.000000004 -1.250000000");
-  bool is_refused = false;
-  try {
-    ros::Time(1.0) - ros::Duration(2.0);
-  } catch (const std::runtime_error&) {
-    is_refused = true;
-  }
-  CHECK(is_refused);
+  text.width(9);
+  text << ros::Time(7, 5) << ros::Duration(2.5);
+  CHECK(text.str().substr(24) == "        7.000000005        2.500000000" && text.width() == 9);
+  int refused = 0;
+  for (const ros::Duration& span : {ros::Duration(2.0), ros::DURATION_MIN}) try {
+      ros::Time(1.0) - span;
+    } catch (const std::runtime_error&) {
+      ++refused;
+    }
+  CHECK(refused == 2);
 }
 
 void checkSerialization() {
@@ -175,6 +179,29 @@ bool addByEvent(ros::ServiceEvent<cpp_nodes::AddTwoInts::Request, cpp_nodes::Add
   return true;
 }
 
+void checkLatched(ros::NodeHandle& n) {
+  std::vector<ros::Publisher> publishers;
+  std_msgs::Int32 number;
+  for (number.data = 1; number.data <= 4; ++number.data) {
+    publishers.push_back(n.advertise<std_msgs::Int32>("latched", 10, number.data < 4));
+    publishers.back().publish(number);
+    publishers.back().publish(number);
+  }
+  CHECK(publishers[0].isLatched() && !publishers[3].isLatched());
+  int heard = 0, sum = 0;
+  const auto listen = [&] {
+    return n.subscribe<std_msgs::Int32>("latched", 10, [&](const std_msgs::Int32ConstPtr& message) {
+      ++heard;
+      sum += message->data;
+    });
+  };
+  const ros::Subscriber first = listen();
+  CHECK(waitFor([&] { return heard >= 3; }) && sum == 6);  // the last message of each
+  publishers[1].shutdown();
+  const ros::Subscriber second = listen();
+  CHECK(waitFor([&] { return heard >= 5; }) && sum == 10);
+}
+
 void checkServices(ros::NodeHandle& n) {
   ros::ServiceServer server = n.advertiseService("sum", add), other = n.advertiseService("first", addByEvent);
   ros::AsyncSpinner spinner(2);
@@ -208,6 +235,9 @@ void checkParameters(ros::NodeHandle& n) {
   XmlRpc::XmlRpcValue value;
   CHECK(n.getParam("gains", value) && value.getType() == XmlRpc::XmlRpcValue::TypeStruct && value.hasMember("p"));
   CHECK(static_cast<int>(value["p"]) == 2 && value.size() == 2);
+  int at = 0;
+  CHECK(XmlRpc::XmlRpcUtil::nextTagData("<int>", " <int>4</int>", &at) == "4" && at == 13);
+  CHECK(XmlRpc::XmlRpcUtil::xmlDecode(XmlRpc::XmlRpcUtil::xmlEncode("<&\"'>")) == "<&\"'>");
   std::string text;
   CHECK(!n.getParam("gains/p", text) && !n.getParam("nothing", text) && !n.hasParam("nothing"));
   CHECK(n.param("nothing", 7) == 7 && n.param<std::string>("nothing", "x") == "x");
@@ -358,6 +388,7 @@ void checkAll(int argc, char** argv) {
   checkTime();
   checkSerialization();
   checkTopics(n);
+  checkLatched(n);
   checkServices(n);
   checkParameters(n);
   checkCachedParents(n);
