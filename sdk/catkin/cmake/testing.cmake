@@ -37,10 +37,14 @@ function(_trundle_compile_test framework name)
   endif()
 endfunction()
 
-# Run a command as a part of run_tests; a failed test does not stop the others.
+# Run a command as a part of run_tests, in the environment of the devel space; a failed test does not stop the others.
 function(_trundle_run_test name)
   string(MAKE_C_IDENTIFIER "run_tests_${PROJECT_NAME}_${name}" target)
-  add_custom_target(${target} COMMAND ${ARGN} || "${CMAKE_COMMAND}" -E true
+  set(environment "${CATKIN_DEVEL_PREFIX}/env.sh")
+  if(NOT EXISTS "${environment}")
+    set(environment "")
+  endif()
+  add_custom_target(${target} COMMAND ${environment} ${ARGN} || "${CMAKE_COMMAND}" -E true
     WORKING_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}" USES_TERMINAL VERBATIM)
   add_dependencies(${target} tests)
   add_dependencies(run_tests ${target})

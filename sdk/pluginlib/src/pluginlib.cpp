@@ -47,6 +47,11 @@ std::string attribute(const ptree& element, const std::string& name) {
   return element.get<std::string>(ptree::path_type("<xmlattr>/" + name, '/'), "");
 }
 
+/** True for a package of the development kit, which is not on ROS_PACKAGE_PATH. */
+bool isOfKit(const std::string& package) {
+  return std::string(" " TRUNDLE_PACKAGES " ").find(" " + package + " ") != std::string::npos;
+}
+
 /** Folders of libraries: of the sourced workspaces, and of the one that a package is in. */
 std::vector<fs::path> libraryFolders(const std::string& package) {
   std::vector<fs::path> folders;
@@ -66,9 +71,10 @@ std::vector<fs::path> libraryFolders(const std::string& package) {
 Plugins::Plugins(const std::string& package, const std::string& base_class, const std::string& attribute,
                  const std::vector<std::string>& xml_paths)
     : package_(package), base_class_(base_class), attribute_(attribute), given_paths_(xml_paths) {
-  if (ros::package::getPath(package).empty())
-    ROS_DEBUG_NAMED("pluginlib.ClassLoader", "package %s is not on ROS_PACKAGE_PATH", package.c_str());
   refreshDeclaredClasses();
+  if (xml_paths_.empty() && ros::package::getPath(package).empty() && !isOfKit(package))
+    throw ClassLoaderException("Unable to find package: " + package +
+                               ", which is not on ROS_PACKAGE_PATH, and for which no package exports plugins");
 }
 
 void Plugins::refreshDeclaredClasses() {

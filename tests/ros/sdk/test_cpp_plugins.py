@@ -31,6 +31,7 @@ def test_plugins_are_created_and_faults_are_named(running: Running, workspace: P
         line.startswith("error: According to the loaded plugin descriptions the class cpp_plugins/other with base")
         for line in lines
     )
+    assert any(line.startswith("error: Unable to find package: no_such_package, which") for line in lines)
     assert lines[-2] in ("10", "11")
     assert lines[-1] == "loads 001 9 100 no library of this class loader has the class shapes::Square"
 

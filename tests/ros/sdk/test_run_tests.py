@@ -14,7 +14,7 @@ pytestmark = pytest.mark.slow
 _CMAKE = """\
 cmake_minimum_required(VERSION 3.0.2)
 project(tested)
-find_package(catkin REQUIRED COMPONENTS roscpp)
+find_package(catkin REQUIRED COMPONENTS roscpp roslib)
 catkin_package()
 include_directories(${catkin_INCLUDE_DIRS})
 if(CATKIN_ENABLE_TESTING)
@@ -26,8 +26,10 @@ endif()
 """
 _SUMS = """\
 #include <gtest/gtest.h>
+#include <ros/package.h>
 #include <ros/time.h>
 TEST(Sums, durationsAdd) { EXPECT_EQ(ros::Duration(3), ros::Duration(1) + ros::Duration(2)); }
+TEST(Sums, packagesOfTheWorkspaceAreFound) { EXPECT_NE("", ros::package::getPath("tested")); }
 TEST(Sums, wrong) { EXPECT_EQ(5, 2 + 2); }
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
@@ -66,6 +68,6 @@ def test_tests_run_and_a_failed_one_is_in_the_results(tmp_path: Path) -> None:
     output = done.stdout + done.stderr
 
     results = ET.parse(tmp_path / "build/tested/test_results/tested/gtest-sums.xml").getroot()
-    assert (results.get("tests"), results.get("failures")) == ("2", "1"), output
+    assert (results.get("tests"), results.get("failures")) == ("3", "1"), output
     assert "Ran 1 test" in output
     assert (tmp_path / "devel/lib/tested/sums").exists()

@@ -50,6 +50,11 @@ int main(int argc, char** argv) {
   } catch (const pluginlib::LibraryLoadException& error) {
     std::cout << "error: " << error.what() << std::endl;
   }
+  try {
+    pluginlib::ClassLoader<shapes::Polygon>("no_such_package", "shapes::Polygon");
+  } catch (const pluginlib::ClassLoaderException& error) {
+    std::cout << "error: " << error.what() << std::endl;
+  }
   ROS_INFO("done");  // by what the header brings, as in the tutorial
   std::cout << loader.isClassLoaded("shapes::Square") << loader.unloadLibraryForClass("shapes::Square") << std::endl;
   if (argc > 1) printLoads(argv[1]);
