@@ -12,6 +12,7 @@
 #include <string>
 
 #include "actionlib/action_definition.h"
+#include "actionlib/client/action_client.h"
 #include "actionlib/client/simple_client_goal_state.h"
 #include "actionlib/goal_id_generator.h"
 

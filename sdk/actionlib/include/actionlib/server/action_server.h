@@ -21,13 +21,13 @@ class ActionServer {
   typedef ServerGoalHandle<ActionSpec> GoalHandle;
   typedef boost::function<void(GoalHandle)> Callback;
 
-  ActionServer(ros::NodeHandle n, const std::string& name, Callback goal_cb, Callback cancel_cb, bool auto_start)
+  ActionServer(ros::NodeHandle n, const std::string& name, Callback goal_cb, Callback cancel_cb, bool auto_start = true)
       : state_(boost::make_shared<State>(ros::NodeHandle(n, name), goal_cb, cancel_cb)) {
     if (auto_start) start();
   }
-  ActionServer(ros::NodeHandle n, const std::string& name, Callback goal_cb, bool auto_start)
+  ActionServer(ros::NodeHandle n, const std::string& name, Callback goal_cb, bool auto_start = true)
       : ActionServer(n, name, goal_cb, Callback(), auto_start) {}
-  ActionServer(ros::NodeHandle n, const std::string& name, bool auto_start)
+  ActionServer(ros::NodeHandle n, const std::string& name, bool auto_start = true)
       : ActionServer(n, name, Callback(), Callback(), auto_start) {}
   ActionServer(const ActionServer&) = delete;
   ActionServer& operator=(const ActionServer&) = delete;

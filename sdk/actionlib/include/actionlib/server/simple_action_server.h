@@ -13,6 +13,7 @@
 
 #include "actionlib/action_definition.h"
 #include "actionlib/goal_id_generator.h"
+#include "actionlib/server/action_server.h"
 
 namespace actionlib {
 
@@ -24,18 +25,18 @@ class SimpleActionServer {
   typedef boost::function<void(const GoalConstPtr&)> ExecuteCallback;
 
   /** With a callback, a thread of the server runs it for each goal; without, the program accepts the goals. */
-  SimpleActionServer(std::string name, ExecuteCallback execute_callback, bool auto_start)
+  SimpleActionServer(std::string name, ExecuteCallback execute_callback, bool auto_start = true)
       : nh_(name), execute_(execute_callback) {
     if (auto_start) start();
   }
-  explicit SimpleActionServer(std::string name, bool auto_start) : nh_(name) {
+  explicit SimpleActionServer(std::string name, bool auto_start = true) : nh_(name) {
     if (auto_start) start();
   }
-  SimpleActionServer(ros::NodeHandle n, std::string name, ExecuteCallback execute_callback, bool auto_start)
+  SimpleActionServer(ros::NodeHandle n, std::string name, ExecuteCallback execute_callback, bool auto_start = true)
       : nh_(n, name), execute_(execute_callback) {
     if (auto_start) start();
   }
-  SimpleActionServer(ros::NodeHandle n, std::string name, bool auto_start) : nh_(n, name) {
+  SimpleActionServer(ros::NodeHandle n, std::string name, bool auto_start = true) : nh_(n, name) {
     if (auto_start) start();
   }
   ~SimpleActionServer() { shutdown(); }

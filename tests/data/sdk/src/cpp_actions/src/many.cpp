@@ -1,6 +1,7 @@
 // A server that works on several goals at once, and its client, which prints a line for each check that fails.
 #include <actionlib/client/action_client.h>
-#include <actionlib/server/action_server.h>
+#include <actionlib/destruction_guard.h>
+#include <actionlib/server/simple_action_server.h>
 #include <cpp_actions/CountAction.h>
 #include <ros/ros.h>
 
@@ -110,6 +111,16 @@ int main(int argc, char** argv) {
   CHECK(ways["bad"] == "PENDING WAITING_FOR_RESULT DONE");
   two.reset();
   CHECK(two.isExpired() && !two.getResult());
+  const actionlib::SimpleActionServer<cpp_actions::CountAction> started("started");
+  Client other("started");
+  CHECK(until([&] { return other.isServerConnected(); }));
+  actionlib::DestructionGuard guard;
+  {
+    const actionlib::DestructionGuard::ScopedProtector user(guard);
+    CHECK(user.isProtected());
+  }
+  guard.destruct();
+  CHECK(!guard.tryProtect());
   std::cout << made << " checks, " << failed << " failed" << std::endl;
   return failed == 0 ? 0 : 1;
 }
