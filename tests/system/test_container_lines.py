@@ -6,7 +6,7 @@ from itertools import pairwise
 from pathlib import Path
 
 LAUNCH = """<launch>
-  <node pkg="octomap_server" type="octomap_server_node" name="planner" ns="r1" args="-v 'two words'">
+  <node pkg="rtabmap_ros" type="rtabmap" name="planner" ns="r1" args="-v 'two words'">
     <remap from="goal" to="/elsewhere/goal"/>
     <param name="rate" value="5"/>
   </node>
@@ -20,9 +20,9 @@ print(rospy.get_name(), rospy.get_param("~rate"), rospy.resolve_name("goal"), ro
 
 def test_a_container_line_has_the_nodes_name_parameters_and_remappings(start, trundle, until, tmp_path: Path) -> None:
     """A local program replaces the program in the container."""
-    program = tmp_path / "installed/octomap_server/scripts/octomap_server_node"
+    program = tmp_path / "installed/rtabmap_ros/scripts/rtabmap"
     program.parent.mkdir(parents=True)
-    (program.parents[1] / "package.xml").write_text("<package><name>octomap_server</name></package>")
+    (program.parents[1] / "package.xml").write_text("<package><name>rtabmap_ros</name></package>")
     program.write_text(REAL)
     program.chmod(0o755)
     (tmp_path / "a.launch").write_text(LAUNCH)

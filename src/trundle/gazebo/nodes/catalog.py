@@ -69,6 +69,9 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("move_base", "move_base"): "trundle.navigation.move_base:MoveBase",
     ("moveit_ros_move_group", "move_group"): "trundle.planning.move_group:MoveGroup",
     ("nodelet", "nodelet"): "trundle.gazebo.nodes.nodelet:Nodelet",
+    ("octomap_server", "octomap_saver"): "trundle.navigation.octomaps:OctomapSaver",
+    ("octomap_server", "octomap_server_node"): "trundle.navigation.octomaps:OctomapServer",
+    ("octomap_server", "octomap_server_static"): "trundle.navigation.octomaps:OctomapServerStatic",
     (
         "pointcloud_to_laserscan",
         "pointcloud_to_laserscan_node",
@@ -184,6 +187,7 @@ NODELETS: dict[str, str] = {
     "imu_filter_madgwick/ImuFilterNodelet": "trundle.gazebo.nodes.imu_filters:ImuFilterMadgwick",
     "laser_filters/scan_to_scan_filter_chain": "trundle.navigation.scan_filters:ScanToScanFilterChain",
     "laser_scan_matcher/LaserScanMatcherNodelet": "trundle.navigation.scan_odometry:LaserScanMatcher",
+    "octomap_server/OctomapServerNodelet": "trundle.navigation.octomaps:OctomapServer",
     "pointcloud_to_laserscan/PointCloudToLaserScanNodelet": (
         "trundle.gazebo.nodes.pointcloud_to_laserscan:PointCloudToLaserScan"
     ),

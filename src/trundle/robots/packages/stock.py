@@ -23,7 +23,7 @@ _NODES_WITH_FILES = """
     amcl cartographer_ros cv_camera depthimage_to_laserscan explore_lite fake_localization follow_waypoints
     frontier_exploration gmapping gscam hector_mapping image_view imu_complementary_filter imu_filter_madgwick
     ira_laser_tools joy laser_filters laser_scan_matcher mbf_costmap_nav move_base moveit_ros_move_group
-    pointcloud_to_laserscan rf2o_laser_odometry robot_localization robot_pose_ekf robot_pose_publisher
+    octomap_server pointcloud_to_laserscan rf2o_laser_odometry robot_localization robot_pose_ekf robot_pose_publisher
     rrt_exploration slam_karto slam_toolbox sound_play teleop_twist_joy teleop_twist_keyboard turtlebot3_teleop
     turtlebot_teleop usb_cam web_video_server yocs_waypoint_provider yocs_waypoints_navi
 """
