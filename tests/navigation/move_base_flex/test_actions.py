@@ -161,6 +161,26 @@ def test_costs_are_checked(graph: Any) -> None:
     assert (cells.state, cells.last_checked) == (1, 3)
 
 
+def test_the_nearest_free_pose_is_found(graph: Any) -> None:
+    """The wall is at x = 3, 0.1 m thick; the robot has a radius of 0.21 m, and its cells are 0.1 m long."""
+    _start(graph)
+
+    def find(x: float, **own: Any) -> Any:
+        own = {"costmap": 2, "dist_tolerance": 1.0, "angle_tolerance": 0.5, "pose": stamped_pose(x, 2.05), **own}
+        return graph.call("/move_base_flex/find_valid_pose", "mbf_msgs/FindValidPose", **own)
+
+    assert (find(1.05).state, find(1.05).pose.pose.position.x) == (0, pytest.approx(1.05))
+    before = find(3.0)
+    assert before.state == 0
+    assert 2.3 < before.pose.pose.position.x < 2.75 or 3.35 < before.pose.pose.position.x < 3.7
+    assert before.pose.pose.position.y == pytest.approx(2.05, abs=0.15)
+    assert before.pose.header.frame_id == "map"
+    assert find(3.05, dist_tolerance=0.1).state == 2
+    assert find(9.0).state == 4
+    assert find(9.0, current_pose=True).pose.pose.position.x == pytest.approx(1.05)
+    assert find(math.nan).state == 4
+
+
 def test_missing_controllers_end_the_node_in_a_sentence(graph: Any, capfd: pytest.CaptureFixture[str]) -> None:
     values = parameters(planners=[{"name": "navfn", "type": "navfn/NavfnROS"}])
     graph.set_params({"/move_base_flex": values})

@@ -1,5 +1,7 @@
 """Services of mbf_costmap_nav that look at its costmaps."""
 
+import asyncio
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -7,15 +9,15 @@ import numpy as np
 from trundle.ros import Node, TransformBuffer, TransformError
 
 from ..costmap import CostmapRos
-from ..pose_messages import planar, read_pose
-from .cost_checks import FREE, OUTSIDE, Multipliers, path_cells_state, point_state, pose_state
+from ..pose_messages import from_planar, planar, pose_fields, read_pose
+from .cost_checks import FREE, OUTSIDE, Multipliers, find_pose, path_cells_state, point_state, pose_state
 
 _LOCAL = 1
 _MAX_MARGIN_M = 100.0
 
 
 class CheckServices:
-    """`~check_point_cost`, `~check_pose_cost`, `~check_path_cost`, `~clear_costmaps`."""
+    """`~check_point_cost`, `~check_pose_cost`, `~check_path_cost`, `~find_valid_pose`, `~clear_costmaps`."""
 
     def __init__(
         self, node: Node, global_costmap: CostmapRos, local_costmap: CostmapRos, buffer: TransformBuffer
@@ -27,6 +29,7 @@ class CheckServices:
         node.advertise_service("~check_point_cost", "mbf_msgs/CheckPoint", self._check_point)
         node.advertise_service("~check_pose_cost", "mbf_msgs/CheckPose", self._check_pose)
         node.advertise_service("~check_path_cost", "mbf_msgs/CheckPath", self._check_path)
+        node.advertise_service("~find_valid_pose", "mbf_msgs/FindValidPose", self._find_pose)
         node.advertise_service("~clear_costmaps", "std_srvs/Empty", self._clear)
 
     def _clear(self, _request: Any) -> dict[str, Any]:
@@ -56,19 +59,38 @@ class CheckServices:
         state, cost = point_state(costmap.costmap, x, y)
         return {"state": state, "cost": cost}
 
+    def _asked_pose(self, service: str, costmap: CostmapRos, request: Any) -> tuple[float, float, float] | None:
+        """Return the pose of a request, or the robot's, in a costmap's frame; None, and a line in the log: unknown."""
+        try:
+            if request.current_pose:
+                return costmap.robot_pose()
+            return self._place(costmap, request.pose.pose, request.pose.header.frame_id)
+        except (TransformError, ValueError) as error:
+            self._node.log.error(f"{service}: {error}")
+            return None
+
     def _check_pose(self, request: Any) -> dict[str, Any]:
         costmap = self._costmap(request)
-        try:
-            pose = costmap.robot_pose()
-            if not request.current_pose:
-                pose = self._place(costmap, request.pose.pose, request.pose.header.frame_id)
-        except (TransformError, ValueError) as error:
-            self._node.log.error(f"check_pose_cost: {error}")
-            pose = None
+        pose = self._asked_pose("check_pose_cost", costmap, request)
         if pose is None:
             return {"state": OUTSIDE}
         state, cost = pose_state(costmap.costmap, costmap.footprint, pose, _margin(request), _multipliers(request))
         return {"state": state, "cost": cost}
+
+    async def _find_pose(self, request: Any) -> dict[str, Any]:
+        """Look beside the graph's thread, in a copy of the costmap; footprints are always padded."""
+        costmap = self._costmap(request)
+        pose = self._asked_pose("find_valid_pose", costmap, request)
+        if pose is None:
+            return {"state": OUTSIDE}
+        reach_m, turn = (
+            min(max(0.0, float(value)), _MAX_MARGIN_M) for value in (request.dist_tolerance, request.angle_tolerance)
+        )
+        look = partial(find_pose, costmap.costmap.copy(), costmap.footprint, pose, _margin(request))
+        state, cost, found = await asyncio.to_thread(look, reach_m=reach_m, turn=turn)
+        header = {"frame_id": costmap.frame, "stamp": self._node.clock.now_ns()}
+        stamped = {"header": header, "pose": pose_fields(from_planar(*found))}
+        return {"state": state, "cost": cost, "pose": stamped}
 
     def _check_path(self, request: Any) -> dict[str, Any]:
         """Check poses until one has the state `return_on`."""

@@ -1,5 +1,6 @@
 """Costs of points, poses and paths, as mbf_costmap_nav's services report them."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -9,6 +10,10 @@ from ..costmap import INSCRIBED, LETHAL, NO_INFORMATION, Costmap, placed
 
 FREE, INSCRIBED_STATE, LETHAL_STATE, UNKNOWN, OUTSIDE = range(5)
 """States of the services, from the least to the worst."""
+_USABLE = (FREE, INSCRIBED_STATE, UNKNOWN, OUTSIDE)
+"""States of poses that may be found, from the best."""
+_TURN_STEP = math.radians(5.0)
+_MAX_PLACES = 100_000
 
 
 class Multipliers(NamedTuple):
@@ -61,6 +66,52 @@ def path_cells_state(grid: Costmap, path: NDArray[np.float64], scale: Multiplier
     cells = np.unique(cells, axis=0)
     costs = grid.cells[cells[:, 1], cells[:, 0]]
     return _worst(costs), _sum(costs, scale)
+
+
+def find_pose(
+    grid: Costmap,
+    footprint: NDArray[np.float64],
+    pose: tuple[float, float, float],
+    margin_m: float,
+    *,
+    reach_m: float,
+    turn: float,
+) -> tuple[int, int, tuple[float, float, float]]:
+    """Return state, cost and pose of the free place that is nearest to a pose; of those, that with the smallest turn.
+
+    Without a free one, the nearest is returned whose footprint is in inscribed cells, else in unknown ones, else partly
+    outside; without any, the state is LETHAL_STATE and the pose that which was given.
+
+    Args:
+        grid: costmap; places are a cell apart.
+        footprint: outline (n, 2) in the robot's frame [m].
+        pose: x, y [m], yaw [rad].
+        margin_m: see `pose_state`.
+        reach_m: greatest distance to the pose [m].
+        turn: greatest turn from it [rad].
+    """
+    x, y, yaw = pose
+    count = min(int(reach_m / grid.resolution_m), int(math.sqrt(_MAX_PLACES) / 2))
+    steps = np.arange(-count, count + 1) * grid.resolution_m
+    places = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
+    distances = np.hypot(places[:, 0], places[:, 1])
+    order = np.argsort(distances, kind="stable")
+    turns = np.append(np.arange(0.0, min(turn, math.pi), _TURN_STEP), min(turn, math.pi))
+    yaws = yaw + np.unique(np.concatenate([turns, -turns]))
+    yaws = yaws[np.argsort(np.abs(yaws - yaw), kind="stable")].tolist()
+    found: dict[int, tuple[int, tuple[float, float, float]]] = {}
+    for dx, dy in places[order[distances[order] <= reach_m + 1e-9]].tolist():
+        center, _ = point_state(grid, x + dx, y + dy)
+        if center in (INSCRIBED_STATE, LETHAL_STATE) or center in found:
+            continue
+        for angle in yaws:
+            place = (x + dx, y + dy, angle)
+            state, cost = pose_state(grid, footprint, place, margin_m, Multipliers())
+            if state == FREE:
+                return state, cost, place
+            found.setdefault(state, (cost, place))
+    state = next((state for state in _USABLE if state in found), LETHAL_STATE)
+    return state, *found.get(state, (0, pose))
 
 
 def _state(cost: int) -> int:

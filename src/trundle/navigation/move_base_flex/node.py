@@ -37,9 +37,9 @@ class MbfCostmapNav:
 
     Parameters, with the original's names: `MbfSettings`, `planners`, `controllers` and `recovery_behaviors` (lists of
     name and type; each plugin's parameters are in the namespace of its name), global_costmap, local_costmap. Services:
-    `~check_point_cost`, `~check_pose_cost`, `~check_path_cost`, `~clear_costmaps`. The action `~move_base` runs the
-    cycles of move_base with the named planner and controller. Slots for concurrent goals are not kept apart: a new goal
-    of an action replaces the last one.
+    `~check_point_cost`, `~check_pose_cost`, `~check_path_cost`, `~find_valid_pose`, `~clear_costmaps`. The action
+    `~move_base` runs the cycles of move_base with the named planner and controller. Slots for concurrent goals are not
+    kept apart: a new goal of an action replaces the last one.
     """
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
