@@ -91,6 +91,15 @@ def test_a_steering_angle_replaces_the_turning_speed() -> None:
     assert np.abs(angles.velocities[:, 2]).max() > 0.05
 
 
+def test_parameters_that_teb_does_not_have_are_named(caplog: pytest.LogCaptureFixture) -> None:
+    own = {**_TEB, "max_vel_xx": 1.0, "oscillation_recovery": True, "odom_topic": "odom"}
+    drive(TebLocalPlannerROS, house_cells(), _ROUND, own, _START, _GOAL, limit_s=0.1)
+
+    warnings = [record.getMessage() for record in caplog.records]
+    assert "/move_base/Planner: teb_local_planner has no parameters max_vel_xx" in warnings
+    assert "/move_base/Planner: parameters without effect: oscillation_recovery" in warnings
+
+
 @pytest.mark.parametrize("is_differential", [True, False])
 def test_an_elastic_band_leads_through_a_door(is_differential: bool) -> None:
     own = {"differential_drive": is_differential}

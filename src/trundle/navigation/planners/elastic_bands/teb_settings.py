@@ -90,25 +90,30 @@ class TebSettings(msgspec.Struct, kw_only=True):
     shrink_horizon_min_duration: _Positive = 10.0
 
 
-WITHOUT_EFFECT = frozenset(
-    {
-        "via_points_ordered",
-        "obstacle_poses_affected",
-        "legacy_obstacle_association",
-        "include_dynamic_obstacles",
-        "dynamic_obstacle_inflation_dist",
-        "weight_dynamic_obstacle",
-        "weight_dynamic_obstacle_inflation",
-        "costmap_converter_plugin",
-        "weight_velocity_obstacle_ratio",
-        "obstacle_proximity_ratio_max_vel",
-        "simple_exploration",
-        "roadmap_graph_no_samples",
-        "roadmap_graph_area_width",
-        "oscillation_recovery",
-    }
-)
+_WITHOUT_EFFECT = """
+    complete_global_plan costmap_converter_plugin costmap_converter_rate costmap_converter_spin_thread
+    delete_detours_backwards detours_orientation_tolerance dynamic_obstacle_inflation_dist enable_multithreading
+    global_plan_prune_distance h_signature_prescaler h_signature_threshold include_dynamic_obstacles
+    is_footprint_dynamic legacy_obstacle_association length_start_orientation_vector max_number_plans_in_current_class
+    max_ratio_detours_duration_best_duration min_resolution_collision_check_angular obstacle_heading_threshold
+    obstacle_keypoint_offset obstacle_poses_affected obstacle_proximity_lower_bound obstacle_proximity_ratio_max_vel
+    obstacle_proximity_upper_bound optimization_verbose oscillation_filter_duration oscillation_omega_eps
+    oscillation_recovery oscillation_recovery_min_duration oscillation_v_eps roadmap_graph_area_length_scale
+    roadmap_graph_area_width roadmap_graph_no_samples selection_alternative_time_cost selection_dropping_probability
+    selection_viapoint_cost_scale simple_exploration transform_tolerance via_points_ordered viapoints_all_candidates
+    visualize_hc_graph visualize_with_time_as_z_axis_scale weight_dynamic_obstacle weight_dynamic_obstacle_inflation
+    weight_prefer_rotdir weight_velocity_obstacle_ratio
+"""
+WITHOUT_EFFECT = frozenset(_WITHOUT_EFFECT.split())
 """Parameters of the original that are read by nothing."""
+_OTHERS = frozenset({"footprint_model", "map_frame", "odom_topic"})
+
+
+def unused_parameters(section: RosParameters) -> tuple[list[str], list[str]]:
+    """Return which parameters of a section act on nothing here, and which the original does not have."""
+    names = section.names()
+    known = WITHOUT_EFFECT.union(TebSettings.__struct_fields__, _OTHERS)
+    return sorted(WITHOUT_EFFECT.intersection(names)), sorted(name for name in names if name not in known)
 
 
 def band_settings(settings: TebSettings) -> BandSettings:
