@@ -42,6 +42,8 @@ class PluginHost : public StepAction {
   std::function<void()> checkpoint() override {
     return [this] { is_replay_ = true; };
   }
+  // A stride has ended, which may have stepped without physics.
+  void finish_stride() { world_.restore_rest(); }
   // A new stride begins: what it steps is not a repetition.
   void begin_stride() { is_replay_ = false; }
 

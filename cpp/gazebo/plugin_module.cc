@@ -28,24 +28,25 @@ namespace trundle {
 namespace {
 
 using Axis = std::tuple<int, int, int, double, bool>;
-using Joints = std::vector<std::pair<std::string, std::vector<Axis>>>;
+using Joint = std::tuple<std::string, std::vector<Axis>, int, std::array<double, 3>, double>;
 
-void make_host(PluginHost* self, const std::array<std::uintptr_t, 4>& kinematics, std::string name, nb::bytes world) {
+void make_host(PluginHost* self, const std::array<std::uintptr_t, 5>& kinematics, std::string name, nb::bytes world) {
   const Kinematics functions{reinterpret_cast<decltype(&mj_kinematics)>(kinematics[0]),
                              reinterpret_cast<decltype(&mj_comPos)>(kinematics[1]),
                              reinterpret_cast<decltype(&mj_comVel)>(kinematics[2]),
-                             reinterpret_cast<decltype(&mj_contactForce)>(kinematics[3])};
+                             reinterpret_cast<decltype(&mj_contactForce)>(kinematics[3]),
+                             reinterpret_cast<decltype(&mj_rnePostConstraint)>(kinematics[4])};
   new (self) PluginHost(functions, std::move(name), std::string(world.c_str(), world.size()));
 }
 
 void bind_world(PluginHost& self, std::uintptr_t model, std::uintptr_t data, std::shared_ptr<MotorBank> bank,
-                const std::vector<std::pair<std::string, int>>& links, const Joints& joints,
+                const std::vector<std::pair<std::string, int>>& links, const std::vector<Joint>& joints,
                 std::vector<std::string> collisions) {
-  std::vector<std::pair<std::string, std::vector<BoundAxis>>> bound;
-  for (const auto& [name, axes] : joints) {
-    bound.emplace_back(name, std::vector<BoundAxis>());
+  std::vector<BoundJoint> bound;
+  for (const auto& [name, axes, link, anchor, joint_sign] : joints) {
+    bound.push_back({name, {}, link, anchor, joint_sign});
     for (const auto& [index, qpos, dof, sign, is_driven] : axes)
-      bound.back().second.push_back({index, qpos, dof, sign, is_driven});
+      bound.back().axes.push_back({index, qpos, dof, sign, is_driven});
   }
   self.world().bind(reinterpret_cast<mjModel*>(model), reinterpret_cast<mjData*>(data), std::move(bank), links, bound,
                     std::move(collisions));
@@ -139,6 +140,7 @@ NB_MODULE(_plugin_host, module) {
            "depths"_a.none(), "contacts"_a)
       .def("close", &PluginHost::close, nb::call_guard<nb::gil_scoped_release>())
       .def("begin_stride", &PluginHost::begin_stride)
+      .def("finish_stride", &PluginHost::finish_stride)
       .def("act", &PluginHost::act, "time_ns"_a, "step_ns"_a, nb::call_guard<nb::gil_scoped_release>())
       .def("take_requests", trundle::take_requests)
       .def("take_warnings", [](PluginHost& self) { return self.world().take_warnings(); })

@@ -24,8 +24,8 @@ bool are_finite(const double* values, int count) {
   return std::all_of(values, values + count, [](double value) { return std::isfinite(value); });
 }
 
-constexpr double kUnreachable = -1e6;                // [m]
-constexpr int kCounts[] = {6, 7, 6, 1, 1, 1, 2, 1};  // numbers of each command
+constexpr double kUnreachable = -1e6;                   // [m]
+constexpr int kCounts[] = {6, 7, 6, 1, 1, 1, 2, 1, 1};  // numbers of each command
 
 }  // namespace
 
@@ -46,11 +46,13 @@ void PluginWorld::begin_call() {
 void PluginWorld::end_call() { --inside; }
 
 void PluginWorld::bind(mjModel* m, mjData* d, std::shared_ptr<MotorBank> bank,
-                       const std::vector<std::pair<std::string, int>>& links,
-                       const std::vector<std::pair<std::string, std::vector<BoundAxis>>>& joints,
+                       const std::vector<std::pair<std::string, int>>& links, const std::vector<BoundJoint>& joints,
                        std::vector<std::string> collisions) {
   const std::scoped_lock lock(names_mutex_, copies_mutex_);
-  if (m != m_) pair_margins_.clear();
+  if (m != m_) {
+    pair_margins_.clear();
+    if (rest_) rest_.emplace();
+  }
   m_ = m;
   d_ = d;
   bank_ = std::move(bank);
@@ -69,17 +71,21 @@ void PluginWorld::bind(mjModel* m, mjData* d, std::shared_ptr<MotorBank> bank,
     geom_links_.push_back(found == link_numbers_.end() ? -1 : found->second);
   }
   apply_collides();
-  for (const auto& [name, axes] : joints) {
-    const auto [at, is_new] = joint_numbers_.try_emplace(name, static_cast<int>(joints_.size()));
+  for (const BoundJoint& bound : joints) {
+    const auto [at, is_new] = joint_numbers_.try_emplace(bound.name, static_cast<int>(joints_.size()));
     if (is_new) joints_.emplace_back();
     Joint& joint = joints_[static_cast<std::size_t>(at->second)];
     joint.exists = true;
-    joint.axes.resize(axes.size());
-    for (std::size_t i = 0; i < axes.size(); ++i) joint.axes[i].bound = axes[i];
+    joint.axes.resize(bound.axes.size());
+    for (std::size_t i = 0; i < bound.axes.size(); ++i) joint.axes[i].bound = bound.axes[i];
+    joint.body = bound.link < 0 ? -1 : links[static_cast<std::size_t>(bound.link)].second;
+    joint.anchor = bound.anchor;
+    joint.sign = bound.sign;
   }
   qvel_.resize(static_cast<std::size_t>(m->nv));
   copied_links_.resize(links_.size());
   copied_joints_.resize(joints_.size());
+  copied_wrenches_.resize(joints_.size());
   has_poses_ = has_twists_ = false;
 }
 
@@ -97,6 +103,8 @@ void PluginWorld::begin(std::int64_t time_ns, std::int64_t step_ns) {
   ++acts_;
   is_acting_ = true;
   has_poses_ = has_twists_ = false;
+  restore_rest();
+  if (wants_wrenches_) update_wrenches();
   if (has_waiting_.exchange(false)) {
     std::vector<Write> waiting;
     {
@@ -116,6 +124,7 @@ void PluginWorld::end() {
     const Axis* axis = axis_of(touched.first, touched.second);
     return !axis || (axis->mode != Mode::kSpeed && axis->last_effort == 0.0);
   });
+  if (rest_) keep_rest();
   if (wants_copies_) copy_values();
   is_acting_ = false;
   --inside;
@@ -128,6 +137,7 @@ void PluginWorld::clear_commands() {
     for (Axis& axis : joint.axes) axis.mode = Mode::kNone, axis.effort = axis.last_effort = 0.0;
   touched_links_.clear();
   touched_axes_.clear();
+  if (rest_) rest_.emplace();
 }
 
 void PluginWorld::update_poses() {
@@ -147,6 +157,27 @@ void PluginWorld::update_twists() {
   has_twists_ = true;
 }
 
+// Of the last step, whose velocities and accelerations the data have until something moves. Joints of trees that sleep
+// keep theirs: nothing is known about what they stand on.
+void PluginWorld::update_wrenches() {
+  kinematics_.forces(m_, d_);
+  for (Joint& joint : joints_) {
+    if (!joint.exists || joint.body < 0) continue;
+    const int body = joint.body, tree = m_->body_treeid[body];
+    if (tree >= 0 && d_->tree_asleep[tree] >= 0) continue;
+    // MuJoCo's torque is about the centre of mass of the whole tree.
+    const double *c = d_->cfrc_int + 6 * body, *com = d_->subtree_com + 3 * m_->body_rootid[body];
+    double arm[3];
+    rotate(d_->xquat + 4 * body, joint.anchor.data(), false, arm);
+    for (int i = 0; i < 3; ++i) arm[i] = com[i] - d_->xpos[3 * body + i] - arm[i];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      joint.wrench[i] = joint.sign * c[3 + i];
+      joint.wrench[3 + i] = joint.sign * (c[i] + arm[j] * c[3 + k] - arm[k] * c[3 + j]);
+    }
+  }
+}
+
 int PluginWorld::free_joint(int body) const {
   const int joint = m_->body_jntadr[body];
   return joint >= 0 && m_->jnt_type[joint] == mjJNT_FREE ? joint : -1;
@@ -162,6 +193,7 @@ PluginWorld::Axis* PluginWorld::axis_of(int number, int axis) {
 int PluginWorld::read(int value, int number, int axis, double* out, int capacity) {
   double values[7];
   int count = 0;
+  if (value == TRUNDLE_JOINT_WRENCH && !wants_wrenches_.exchange(true) && is_inside()) update_wrenches();
   if (is_inside()) {
     count = read_now(value, number, axis, values);
   } else {
@@ -173,6 +205,8 @@ int PluginWorld::read(int value, int number, int axis, double* out, int capacity
       std::copy_n(copied_gravity_.data(), count = 3, values);
     } else if (number < 0) {
       return 0;
+    } else if (value == TRUNDLE_JOINT_WRENCH && index < copied_wrenches_.size()) {
+      std::copy_n(copied_wrenches_[index].data(), count = 6, values);
     } else if (is_link && index < copied_links_.size()) {
       const bool is_pose = value == TRUNDLE_LINK_POSE;
       std::copy_n(copied_links_[index].data() + (is_pose ? 0 : 7), count = is_pose ? 7 : 6, values);
@@ -219,6 +253,11 @@ int PluginWorld::read_now(int value, int number, int axis, double* out) {
     const Joint& joint = joints_[static_cast<std::size_t>(number)];
     return joint.exists ? (out[0] = static_cast<double>(joint.axes.size()), 1) : 0;
   }
+  if (value == TRUNDLE_JOINT_WRENCH) {
+    if (number < 0 || number >= static_cast<int>(joints_.size())) return 0;
+    const Joint& joint = joints_[static_cast<std::size_t>(number)];
+    return joint.exists && joint.body >= 0 ? (std::copy_n(joint.wrench.data(), 6, out), 6) : 0;
+  }
   const Axis* at = axis_of(number, axis);
   if (!at) return 0;
   const BoundAxis& bound = at->bound;
@@ -233,7 +272,7 @@ int PluginWorld::read_now(int value, int number, int axis, double* out) {
 }
 
 bool PluginWorld::write(int command, int number, int axis, const double* values, int count) {
-  if (command < 0 || command > TRUNDLE_ADD_EFFORT || count < kCounts[command] || number < 0) return false;
+  if (command < 0 || command > TRUNDLE_SET_PHYSICS || count < kCounts[command] || number < 0) return false;
   if (!are_finite(values, kCounts[command])) return false;
   Write write{command, number, axis, {}, kCounts[command]};
   std::copy_n(values, write.count, write.values.data());
@@ -245,6 +284,7 @@ bool PluginWorld::write(int command, int number, int axis, const double* values,
 }
 
 bool PluginWorld::write_now(const Write& write) {
+  if (write.command == TRUNDLE_SET_PHYSICS) return write_physics(write.values[0] != 0.0);
   if (write.command <= TRUNDLE_SET_COLLIDE) {
     if (write.number >= static_cast<int>(links_.size())) return false;
     Link& link = links_[static_cast<std::size_t>(write.number)];
@@ -267,6 +307,27 @@ void PluginWorld::moved(int dof) {
   wake_tree(m_, d_, dof);
   has_poses_ = has_twists_ = false;
   has_changed_ = true;
+}
+
+bool PluginWorld::write_physics(bool is_on) {
+  if (is_on) rest_.reset();
+  else if (!rest_) rest_.emplace();
+  return true;
+}
+
+// The engine steps as always, so that time and sensors go on; afterwards everything is where it was.
+void PluginWorld::keep_rest() {
+  const double* times = d_->userdata + m_->nu;
+  rest_ = Rest{{d_->qpos, d_->qpos + m_->nq}, {d_->qvel, d_->qvel + m_->nv}, {times, times + m_->nv}, true};
+}
+
+void PluginWorld::restore_rest() {
+  if (!rest_ || !std::exchange(rest_->has_stepped, false)) return;
+  std::copy(rest_->qpos.begin(), rest_->qpos.end(), d_->qpos);
+  std::copy(rest_->qvel.begin(), rest_->qvel.end(), d_->qvel);
+  std::copy(rest_->times.begin(), rest_->times.end(), d_->userdata + m_->nu);
+  has_poses_ = has_twists_ = false;
+  has_changed_ = has_moved_ = true;
 }
 
 bool PluginWorld::write_link(Link& link, const Write& write) {
@@ -381,6 +442,7 @@ void PluginWorld::copy_values() {
     read_now(TRUNDLE_LINK_TWIST, static_cast<int>(i), 0, copied_links_[i].data() + 7);
   }
   for (std::size_t i = 0; i < joints_.size(); ++i) {
+    copied_wrenches_[i] = joints_[i].wrench;
     copied_joints_[i].resize(joints_[i].exists ? joints_[i].axes.size() : 0);
     for (std::size_t axis = 0; axis < copied_joints_[i].size(); ++axis)
       for (int value = TRUNDLE_JOINT_POSITION; value <= TRUNDLE_JOINT_EFFORT; ++value)

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -29,6 +30,7 @@ struct Kinematics {
   decltype(&mj_comPos) centers = nullptr;
   decltype(&mj_comVel) velocities = nullptr;
   decltype(&mj_contactForce) contact_force = nullptr;
+  decltype(&mj_rnePostConstraint) forces = nullptr;
 };
 
 // Axis of a joint: its index in the bank, its addresses, and the sign of both. Motor -1: of a ball joint.
@@ -36,6 +38,15 @@ struct BoundAxis {
   int index, qpos, dof;
   double sign;
   bool is_driven;
+};
+
+// Joint with its axes. Its link: the one that moves with it in MuJoCo's tree, with its place there [m]; -1: none.
+struct BoundJoint {
+  std::string name;
+  std::vector<BoundAxis> axes;
+  int link;
+  std::array<double, 3> anchor;
+  double sign;  // -1: the link is the joint's parent
 };
 
 struct PluginRequest {
@@ -49,13 +60,14 @@ class PluginWorld {
 
   // Use these arrays from now on. Links and joints keep their numbers by name; those that are not named are gone.
   void bind(mjModel* m, mjData* d, std::shared_ptr<MotorBank> bank,
-            const std::vector<std::pair<std::string, int>>& links,
-            const std::vector<std::pair<std::string, std::vector<BoundAxis>>>& joints,
+            const std::vector<std::pair<std::string, int>>& links, const std::vector<BoundJoint>& joints,
             std::vector<std::string> collisions);
 
   // Begin and end what the plugins do before a step.
   void begin(std::int64_t time_ns, std::int64_t step_ns);
   void end();
+  // After the steps of a stride: without physics, what they moved is where it was.
+  void restore_rest();
   // Within a plugin's call outside of a step, such as its Load.
   void enter_call();
   void leave_call();
@@ -84,7 +96,7 @@ class PluginWorld {
   std::int64_t step_ns() const { return step_ns_; }
 
  private:
-  using Wrench = std::array<double, 6>;
+  using Wrench = std::array<double, 6>;  // force, torque
 
   struct Link {
     int body = -1;
@@ -101,6 +113,10 @@ class PluginWorld {
   struct Joint {
     bool exists = false;
     std::vector<Axis> axes;
+    int body = -1;
+    std::array<double, 3> anchor{};
+    double sign = 1.0;
+    Wrench wrench{};
   };
   struct Write {
     int command, number, axis;
@@ -108,11 +124,19 @@ class PluginWorld {
     int count;
   };
 
+  // What a step without physics does not change: positions, velocities and the times of these.
+  struct Rest {
+    std::vector<double> qpos, qvel, times;
+    bool has_stepped = false;
+  };
+
   bool is_inside() const;
   int free_joint(int body) const;
   Axis* axis_of(int number, int axis);
   int read_now(int value, int number, int axis, double* out);
   bool write_now(const Write& write);
+  bool write_physics(bool is_on);
+  void keep_rest();
   bool write_link(Link& link, const Write& write);
   void apply_collides();
   void restore_collides();
@@ -121,6 +145,7 @@ class PluginWorld {
   void moved(int dof);
   void update_poses();
   void update_twists();
+  void update_wrenches();
   void apply_wrench(Link& link);
   void apply_efforts(Axis& axis);
   void copy_values();
@@ -138,6 +163,7 @@ class PluginWorld {
   std::vector<int> touched_links_;
   std::vector<std::pair<int, int>> touched_axes_;
   std::vector<double> qvel_;
+  std::optional<Rest> rest_;
   bool has_poses_ = false, has_twists_ = false, has_changed_ = false, has_moved_ = false, is_acting_ = false;
   std::int64_t acts_ = 0;
   std::atomic<std::int64_t> time_ns_{0}, step_ns_{1000000};
@@ -146,9 +172,10 @@ class PluginWorld {
   std::vector<Write> waiting_;
   std::vector<PluginRequest> requests_;
   std::vector<std::string> warnings_;
-  std::atomic<bool> has_queued_{false}, has_waiting_{false}, wants_copies_{false};
+  std::atomic<bool> has_queued_{false}, has_waiting_{false}, wants_copies_{false}, wants_wrenches_{false};
   std::vector<std::array<double, 13>> copied_links_;  // pose, twist
   std::vector<std::vector<std::array<double, 3>>> copied_joints_;
+  std::vector<Wrench> copied_wrenches_;
   std::array<double, 3> copied_gravity_{};
 };
 

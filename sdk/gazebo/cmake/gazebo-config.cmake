@@ -41,7 +41,7 @@ endforeach()
 list(APPEND GAZEBO_LIBRARIES ${_trundle_boost} Threads::Threads)
 
 # Libraries that plugins link with for base classes; the kit has these in headers alone.
-foreach(_trundle_name CameraPlugin ContactPlugin DepthCameraPlugin GpuRayPlugin RayPlugin)
+foreach(_trundle_name CameraPlugin ContactPlugin DepthCameraPlugin ElevatorPlugin GpuRayPlugin HarnessPlugin RayPlugin)
   if(NOT TARGET ${_trundle_name})
     add_library(${_trundle_name} INTERFACE IMPORTED)
   endif()

@@ -33,6 +33,12 @@ void Camera::Read(const std::string& name, const sdf::ElementPtr& camera, double
   }
 }
 
+void Distortion::SetCrop(bool crop) {
+  if (crop == crop_) return;
+  crop_ = crop;
+  if (crop_changed_) crop_changed_(crop);
+}
+
 void Camera::SetHFOV(const ignition::math::Angle& angle) {
   if (std::abs(angle.Radian() - hfov_) > 1e-9)
     gzwarn << "camera " << name_ << ": the field of view cannot be changed; it stays " << hfov_ << " rad\n";

@@ -70,6 +70,21 @@ double Joint::GetVelocity(unsigned int axis) const {
   return value;
 }
 
+JointWrench Joint::GetForceTorque(unsigned int) const {
+  const TrundleGazeboHost* host = world_->Host();
+  double v[6];
+  JointWrench wrench;
+  if (host->read(host->self, TRUNDLE_JOINT_WRENCH, Number(), 0, v, 6) < 6) return wrench;
+  const Vector3d force(v[0], v[1], v[2]), torque(v[3], v[4], v[5]);
+  const auto parent = parent_link_ ? parent_link_->WorldPose().Rot() : ignition::math::Quaterniond();
+  const auto child = child_link_ ? child_link_->WorldPose().Rot() : ignition::math::Quaterniond();
+  wrench.body1Force = parent.RotateVectorReverse(force);
+  wrench.body1Torque = parent.RotateVectorReverse(torque);
+  wrench.body2Force = child.RotateVectorReverse(-force);
+  wrench.body2Torque = child.RotateVectorReverse(-torque);
+  return wrench;
+}
+
 double Joint::GetForce(unsigned int axis) { return effort_[Index(axis)]; }
 
 bool Joint::SetPosition(unsigned int axis, double position, bool) {

@@ -11,6 +11,7 @@
 
 #include <gazebo/common/common.hh>
 #include <gazebo/physics/physics.hh>
+#include <gazebo/rendering/Visual.hh>
 #include <gazebo/sensors/sensors.hh>
 
 #include "builder.h"
@@ -25,6 +26,7 @@ struct LoadedPlugin {
   int number;
   boost::shared_ptr<void> object;
   sensors::SensorPtr sensor;
+  rendering::VisualPtr visual;
   std::function<void()> reset;
 };
 
@@ -132,6 +134,17 @@ sensors::SensorPtr find_sensor(const OpenWorld& open, const std::string& name) {
   return sensors::SensorPtr();
 }
 
+// Visual of a name as `model::link::visual`; null if there is none.
+rendering::VisualPtr find_visual(const OpenWorld& open, const std::string& name) {
+  const std::size_t last = name.rfind("::");
+  if (last == std::string::npos) return rendering::VisualPtr();
+  const auto link = boost::dynamic_pointer_cast<physics::Link>(open.world->BaseByName(name.substr(0, last)));
+  if (!link) return rendering::VisualPtr();
+  for (sdf::ElementPtr e = link->GetSDF()->FindElement("visual"); e; e = e->GetNextElement("visual"))
+    if (e->Get<std::string>("name") == name.substr(last + 2)) return std::make_shared<rendering::Visual>(link, e);
+  return rendering::VisualPtr();
+}
+
 std::string load_plugin(OpenWorld& open, LoadedPlugin& loaded, void* library, const char* parent, const char* file,
                         const sdf::ElementPtr& sdf) {
   const auto kind = reinterpret_cast<int (*)()>(dlsym(library, "TrundleGazeboPluginKind"));
@@ -177,7 +190,16 @@ std::string load_plugin(OpenWorld& open, LoadedPlugin& loaded, void* library, co
       event::Events::worldCreated.SignalTo(owner, open.world->Name());
       return "";
     }
-    default: return "it is a plugin of a visual or of the window, which are not run in C++";
+    case VISUAL_PLUGIN: {
+      loaded.visual = find_visual(open, parent);
+      if (!loaded.visual) return "it is a visual's plugin, and belongs into a <visual>";
+      loaded.model = loaded.visual->Name().substr(0, loaded.visual->Name().find("::"));
+      VisualPlugin* plugin = hold<VisualPlugin>(loaded, make(), file, name);
+      plugin->Load(loaded.visual, sdf);
+      plugin->Init();
+      return "";
+    }
+    default: return "it is a plugin of the window, which is the page here";
   }
 }
 
@@ -204,7 +226,10 @@ int load(void* self, void* library, const char* parent, const char* name, const 
 }
 
 void before_step(void* self, int64_t time_ns, int64_t real_ns) {
-  static_cast<OpenWorld*>(self)->world->BeforeStep(time_ns, real_ns);
+  const OpenWorld& open = *static_cast<OpenWorld*>(self);
+  open.world->BeforeStep(time_ns, real_ns);
+  for (const std::unique_ptr<LoadedPlugin>& plugin : open.plugins)
+    if (plugin->visual) plugin->visual->Send(common::Time::FromNanoseconds(time_ns));
 }
 
 void after_step(void* self, int64_t time_ns, int64_t real_ns) {

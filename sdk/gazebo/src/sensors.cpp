@@ -204,6 +204,10 @@ unsigned int ContactSensor::GetCollisionContactCount(const std::string& collisio
 
 void CameraSensor::Read(const sdf::ElementPtr& sdf) {
   camera_->Read(ScopedName(), sdf->FindElement("camera"), UpdateRate());
+  const std::string world = WorldName(), name = ParentName() + "::" + Name();
+  camera_->WhenCropChanges([world, name](bool crop) {
+    if (physics::has_world(world)) physics::get_world(world)->Request({"border_crop", name}, {crop ? 1.0 : 0.0});
+  });
 }
 
 void MultiCameraSensor::Read(const sdf::ElementPtr& sdf) {

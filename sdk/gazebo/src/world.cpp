@@ -39,7 +39,8 @@ World::World(const std::string& name)
       physics_(boost::make_shared<PhysicsEngine>(this)),
       last_time_ns_(0),
       iterations_(0),
-      is_paused_(false) {
+      is_paused_(false),
+      physics_enabled_(true) {
   start_time_ = common::Time::GetWallTime();
   update_info_.worldName = name;
 }
@@ -55,6 +56,11 @@ ignition::math::Vector3d World::Gravity() const {
 }
 
 void World::SetGravity(const ignition::math::Vector3d& g) { Request({"gravity"}, {g.X(), g.Y(), g.Z()}); }
+void World::SetPhysicsEnabled(bool is_enabled) {
+  const double value = is_enabled ? 1.0 : 0.0;
+  if (host_->write(host_->self, TRUNDLE_SET_PHYSICS, 0, 0, &value, 1)) physics_enabled_ = is_enabled;
+}
+
 void World::Reset() { Request({"reset"}); }
 void World::ResetTime() { Request({"reset_time"}); }
 void World::ResetEntities(Base::EntityType) { Request({"reset_poses"}); }

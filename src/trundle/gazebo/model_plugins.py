@@ -83,7 +83,7 @@ def _load_visual_plugins(
         tags = [(visual, tag) for visual in link.link.visuals for tag in visual.plugins]
         named_tags = _unique_node_names(f"/{ros_name(model.name)}/{ros_name(link.name)}", [tag for _, tag in tags])
         for (visual, tag), (_, node_name) in zip(tags, named_tags, strict=True):
-            if is_cosmetic(tag):
+            if is_cosmetic(tag, environment):
                 message = f"plugin {tag.name!r}: {tag.filename} alters only how Gazebo draws a visual; it is not run"
                 report.info(tag.at, message, "cosmetic-plugin")
                 continue
@@ -243,7 +243,7 @@ def report_missing_plugins(world: World, environment: Mapping[str, str], report:
     for tag in (*world.plugins, *(tag for model in world.models for tag in model.plugins)):
         require(tag)
     for link in (link for model in world.models for link in model.links):
-        for tag in (tag for visual in link.visuals for tag in visual.plugins if not is_cosmetic(tag)):
+        for tag in (tag for visual in link.visuals for tag in visual.plugins if not is_cosmetic(tag, environment)):
             require(tag)
         for sensor in link.sensors:
             for tag in (tag for tag in sensor.plugins if not is_sensor_plugin(tag, environment)):

@@ -24,7 +24,8 @@ enum TrundleGazeboValue {
   TRUNDLE_JOINT_VELOCITY, /* 1, of an axis */
   TRUNDLE_JOINT_EFFORT,   /* 1, of an axis: of motors and forces */
   TRUNDLE_JOINT_AXES,     /* 1: number of axes */
-  TRUNDLE_GRAVITY         /* 3 */
+  TRUNDLE_GRAVITY,        /* 3 */
+  TRUNDLE_JOINT_WRENCH    /* 6: force and torque of the parent on the child in the last step, at the joint */
 };
 
 /* What is written, with its number of values. */
@@ -36,7 +37,8 @@ enum TrundleGazeboCommand {
   TRUNDLE_SET_POSITION, /* 1: of a joint's axis */
   TRUNDLE_SET_SPEED,    /* 1: of a joint's axis, as if by an impulse that only the child feels; for one step */
   TRUNDLE_DRIVE,        /* 2: speed and largest effort of a joint's motor, until the next */
-  TRUNDLE_ADD_EFFORT    /* 1: effort on a joint's axis, for the coming step */
+  TRUNDLE_ADD_EFFORT,   /* 1: effort on a joint's axis, for the coming step */
+  TRUNDLE_SET_PHYSICS   /* 1: whether time moves anything; of the world */
 };
 
 /* Contact point of the last step. */

@@ -179,9 +179,9 @@ def find_held_file(tag: PluginTag, environment: Mapping[str, str]) -> Path | Non
     return next((file for folder in _folders(tag, environment) if (file := folder / name).is_file()), None)
 
 
-def is_cosmetic(tag: PluginTag) -> bool:
-    """True for Gazebo's visual plugins that change only how a visual is drawn; Trundle does not run them."""
-    return _base_name(tag) in _COSMETIC
+def is_cosmetic(tag: PluginTag, environment: Mapping[str, str]) -> bool:
+    """True for Gazebo's visual plugins that change only how a visual is drawn; Trundle runs those that are compiled."""
+    return _base_name(tag) in _COSMETIC and plugin_library(tag, environment) is None
 
 
 def find_world_plugin(tag: PluginTag, environment: Mapping[str, str]) -> tuple[type[WorldPlugin], str]:
@@ -221,7 +221,7 @@ def _base_name(tag: PluginTag) -> str:
 
 def _find(tag: PluginTag, environment: Mapping[str, str], kind: type[_Kind]) -> tuple[type[_Kind], str]:
     filename = _base_name(tag)
-    library = None if kind is VisualPlugin else plugin_library(tag, environment)
+    library = plugin_library(tag, environment)
     if library is not None:
         return _compiled_class(library, kind), f"{library}, in C++"
     if filename in BUILTIN:
@@ -234,9 +234,14 @@ def _find(tag: PluginTag, environment: Mapping[str, str], kind: type[_Kind]) -> 
 
 
 def _compiled_class(library: Path, kind: type[_Kind]) -> type[_Kind]:
-    from .compiled import compiled_model_plugin, compiled_world_plugin  # lazy: most robots have none
+    from . import compiled  # lazy: most robots have none
 
-    found = compiled_world_plugin(library) if issubclass(kind, WorldPlugin) else compiled_model_plugin(library)
+    if issubclass(kind, WorldPlugin):
+        found = compiled.compiled_world_plugin(library)
+    elif issubclass(kind, VisualPlugin):
+        found = compiled.compiled_visual_plugin(library)
+    else:
+        found = compiled.compiled_model_plugin(library)
     assert issubclass(found, kind)
     return cast("type[_Kind]", found)
 

@@ -200,6 +200,39 @@ private:
       this->body->AddForce(ignition::math::Vector3d(0, 0, 2000));
     if (_step == 1352)
       CHECK(this->body->WorldLinearVel().Z() > 0.9 && Near(tip->WorldLinearVel().Z(), 0));
+    if (_step == 1360)  // 10 N up and 3 N along the arm's x, which the joint takes, in each link's axes
+    {
+      this->turn->GetForceTorque(0);
+      tip->AddForce(ignition::math::Vector3d(0, 0, 10));
+      tip->AddRelativeForce(ignition::math::Vector3d(3, 0, 0));
+    }
+    if (_step == 1361)
+    {
+      const physics::JointWrench wrench = this->turn->GetForceTorque(0);
+      CHECK(Near(wrench.body2Force, 3, 0, 10, 0.02) && Near(wrench.body2Torque, 0, 0, 0, 0.02));
+      const double yaw = this->turn->Position(0);
+      CHECK(Near(wrench.body1Force, -3 * std::cos(yaw), -3 * std::sin(yaw), -10, 0.02));
+    }
+    if (_step == 1370)
+    {
+      CHECK(this->world->PhysicsEnabled());
+      this->world->SetPhysicsEnabled(false);
+      this->offset = this->body->WorldPose();
+      CHECK(this->body->WorldLinearVel().Z() > 0.9);
+    }
+    if (_step == 1380)  // nothing moves but what a plugin moves
+    {
+      CHECK(this->body->WorldPose() == this->offset && this->body->WorldLinearVel().Z() > 0.9);
+      this->turn->SetPosition(0, 0.5);
+      CHECK(Near(this->turn->Position(0), 0.5));
+    }
+    if (_step == 1390)
+    {
+      CHECK(Near(this->turn->Position(0), 0.5) && !this->world->PhysicsEnabled());
+      this->world->SetPhysicsEnabled(true);
+    }
+    if (_step == 1399)
+      CHECK(this->body->WorldPose().Pos().Z() - this->offset.Pos().Z() > 0.008);
   }
 
   void OnEnd() { ++this->ends; }

@@ -122,6 +122,51 @@ def test_the_interface_says_and_does_what_is_documented(built: Path) -> None:
     assert re.search(r"^14\d\d checks, 0 failed$", done.stdout, re.MULTILINE), done.stdout + done.stderr
 
 
+def test_elevators_and_harnesses_work(built: Path) -> None:
+    """A lift goes to the floor at 2 m, opens and shuts; a load is pulled up by 0.5 m, held, and falls."""
+    words = ("run", "machines.world", "--headless", "--duration", "8", "--speed", "max", "--no-ros")
+    done = command(*words, cwd=_SOURCES / "drive", GAZEBO_PLUGIN_PATH=str(built / "build"))
+
+    at = {(name, int(step)): text for name, step, text in re.findall(r"^(\w+) at (\d+): (.*)", done.stdout, re.M)}
+    height = float(at["load", 2000].split()[0])
+    assert height == pytest.approx(10.5, abs=0.05), done.stdout + done.stderr
+    assert float(at["load", 1500]) == pytest.approx(height, abs=0.02)
+    assert float(at["load", 2500]) == pytest.approx(height - 9.8 * 0.5**2 / 2, abs=0.05)
+    lift = [tuple(map(float, text.split())) for (name, _), text in at.items() if name == "lift"]
+    assert max(door for _, door in lift) > 0.9, lift
+    assert lift[0] == (1.0, 0.0)
+    assert lift[-1] == pytest.approx((3.0, 0.0), abs=0.1)
+
+
+def test_a_plugin_of_a_visual_draws_lines_and_changes_it(built: Path) -> None:
+    file = _SOURCES / "drive/machines.world"
+    variables = {"GAZEBO_PLUGIN_PATH": str(built / "build")}
+    sim = trundle.load(str(file))
+    packages = Packages(variables, start=file)
+    live = LiveWorld(sim, packages=packages, environment=variables, say=lambda _: None, has_sensors=False)
+    live.load_plugins()
+
+    live.advance(200_000_000)
+    (line,) = sim.lines.values()
+    # From the ball's middle along the link's x, which is the world's y, by its diameter.
+    assert line.points == [pytest.approx((0.0, 5.0, 2.0)), pytest.approx((0.0, 5.5, 2.0))]
+    assert line.rgb == pytest.approx((0.0, 1.0, 0.0))
+
+    live.advance(1_000_000_000)
+    (line,) = sim.lines.values()
+    assert line.points == [pytest.approx((0.0, 5.0, 1.5)), pytest.approx((0.0, 5.0, 2.5))]
+    assert line.rgb[2] > line.rgb[1]
+    visual = sim["marked"].model.links[0].visuals[0]
+    assert (visual.link_from_visual.position, visual.transparency) == (pytest.approx((0.0, 0.0, 0.5)), 0.5)
+
+    live.advance(2_000_000_000)
+    assert sim["marked"].model.links[0].visuals[0].transparency == 1.0
+    live.delete("marked")
+    live.advance(2_010_000_000)
+    assert sim.lines == {}
+    assert sim.report.warnings == []
+
+
 def test_it_follows_the_simulation_in_time_and_through_changes(built: Path, tmp_path: Path) -> None:
     """Going back, resets, and a second robot with the same plugin, after which the first is deleted."""
     file = robot(tmp_path / "rp2w", '<plugin name="rp2w" filename="librp2w.so"/>')

@@ -106,7 +106,6 @@ class VisualPlugin : public PluginT<VisualPlugin> {
 #define GZ_REGISTER_MODEL_PLUGIN(classname) TRUNDLE_REGISTER_PLUGIN(classname, ModelPlugin, MODEL_PLUGIN)
 #define GZ_REGISTER_SENSOR_PLUGIN(classname) TRUNDLE_REGISTER_PLUGIN(classname, SensorPlugin, SENSOR_PLUGIN)
 #define GZ_REGISTER_SYSTEM_PLUGIN(classname) TRUNDLE_REGISTER_PLUGIN(classname, SystemPlugin, SYSTEM_PLUGIN)
-#define GZ_REGISTER_VISUAL_PLUGIN(classname) \
-  static_assert(sizeof(classname) == 0, "Trundle's kit has no plugins of visuals: the page draws them");
+#define GZ_REGISTER_VISUAL_PLUGIN(classname) TRUNDLE_REGISTER_PLUGIN(classname, VisualPlugin, VISUAL_PLUGIN)
 
 #endif

@@ -10,6 +10,7 @@
 #include <gazebo/math/Angle.hh>
 #include <gazebo/physics/Base.hh>
 #include <gazebo/physics/Entity.hh>
+#include <gazebo/physics/JointWrench.hh>
 
 namespace gazebo {
 namespace physics {
@@ -45,6 +46,8 @@ class Joint : public Base {
   double GetVelocity(unsigned int axis) const;
   // Effort that was set for the coming step.
   double GetForce(unsigned int axis);
+  // What parent (1) and child (2) exert on the joint in the last step, at the joint, in the axes of each link.
+  JointWrench GetForceTorque(unsigned int axis) const;
   // Sets the position at once, and returns whether there is such an axis.
   bool SetPosition(unsigned int axis, double position, bool preserve_world_velocity = false);
   // Without a largest effort the joint has the speed for one step, as if pushed; with one, its motor keeps the speed.

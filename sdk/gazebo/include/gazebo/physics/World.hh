@@ -36,6 +36,9 @@ class World : public boost::enable_shared_from_this<World> {
   void SetPaused(bool is_paused) { is_paused_ = is_paused; }
   bool Running() const { return true; }
   PhysicsEnginePtr Physics() const { return physics_; }
+  // Without physics nothing moves but what plugins move, and time goes on.
+  bool PhysicsEnabled() const { return physics_enabled_; }
+  void SetPhysicsEnabled(bool is_enabled);
   ignition::math::Vector3d Gravity() const;
   void SetGravity(const ignition::math::Vector3d& gravity);
 
@@ -67,6 +70,8 @@ class World : public boost::enable_shared_from_this<World> {
   common::Time GetStartTime() const { return StartTime(); }
   uint32_t GetIterations() const { return static_cast<uint32_t>(Iterations()); }
   bool GetRunning() const { return Running(); }
+  bool GetEnablePhysicsEngine() const { return PhysicsEnabled(); }
+  void EnablePhysicsEngine(bool is_enabled) { SetPhysicsEnabled(is_enabled); }
   common::SphericalCoordinatesPtr GetSphericalCoordinates() const { return spherical_coordinates_; }
   PhysicsEnginePtr GetPhysicsEngine() const { return Physics(); }
   unsigned int GetModelCount() const { return ModelCount(); }
@@ -104,7 +109,7 @@ class World : public boost::enable_shared_from_this<World> {
   common::UpdateInfo update_info_;
   int64_t last_time_ns_;
   uint64_t iterations_;
-  bool is_paused_;
+  bool is_paused_, physics_enabled_;
 };
 
 // World by name; "": the one whose plugin runs, else the last one.

@@ -28,6 +28,9 @@ class Distortion {
   double P1() const { return p_[0]; }
   double P2() const { return p_[1]; }
   ignition::math::Vector2d Center() const { return center_; }
+  // Whether a picture is enlarged until no border is black, where k1 is negative; it is, until a plugin sets another.
+  bool Crop() const { return crop_; }
+  void SetCrop(bool crop);
   double GetK1() const { return K1(); }
   double GetK2() const { return K2(); }
   double GetK3() const { return K3(); }
@@ -38,6 +41,8 @@ class Distortion {
   friend class Camera;
   double k_[3] = {0.0, 0.0, 0.0}, p_[2] = {0.0, 0.0};
   ignition::math::Vector2d center_ = ignition::math::Vector2d(0.5, 0.5);
+  bool crop_ = true;
+  std::function<void(bool)> crop_changed_;
 };
 
 class Camera {
@@ -90,6 +95,9 @@ class Camera {
 
   // For the library.
   void Read(const std::string& name, const sdf::ElementPtr& camera, double rate);
+  void WhenCropChanges(const std::function<void(bool)>& call) {
+    if (distortion_) distortion_->crop_changed_ = call;
+  }
   virtual void Set(const TrundleGazeboReading& reading, const common::Time& time);
   virtual void Tell(const void* world);
   virtual bool IsWanted() const { return new_images_.ConnectionCount() > 0; }

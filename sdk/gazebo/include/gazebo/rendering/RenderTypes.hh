@@ -5,6 +5,12 @@
 
 #include <boost/shared_ptr.hpp>
 
+// Who sees a visual; lines are seen on the page alone.
+#define GZ_VISIBILITY_ALL 0x0FFFFFFF
+#define GZ_VISIBILITY_SELECTION 0x10000000
+#define GZ_VISIBILITY_GUI 0x00000001
+#define GZ_VISIBILITY_SELECTABLE 0x00000002
+
 namespace gazebo {
 namespace rendering {
 

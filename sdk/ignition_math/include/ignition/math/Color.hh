@@ -12,6 +12,8 @@ namespace math {
 
 class Color {
  public:
+  static const Color White, Black, Red, Green, Blue, Yellow, Magenta, Cyan;
+
   Color() : r(0), g(0), b(0), a(1) {}
   Color(float red, float green, float blue, float alpha = 1.0f) : r(red), g(green), b(blue), a(alpha) { Clamp(); }
 

@@ -14,7 +14,7 @@ class PluginHost(StepAction):
         """Create without models.
 
         Args:
-            functions: addresses of mj_kinematics, mj_comPos, mj_comVel and mj_contactForce.
+            functions: addresses of mj_kinematics, mj_comPos, mj_comVel, mj_contactForce and mj_rnePostConstraint.
             name: world's name.
             world: its elements.
         """
@@ -25,7 +25,9 @@ class PluginHost(StepAction):
         data: int,
         bank: MotorBank,
         links: Sequence[tuple[str, int]],
-        joints: Sequence[tuple[str, Sequence[tuple[int, int, int, float, bool]]]],
+        joints: Sequence[
+            tuple[str, Sequence[tuple[int, int, int, float, bool]], int, tuple[float, float, float], float]
+        ],
         collisions: Sequence[str],
     ) -> None:
         """Use these arrays from now on.
@@ -35,7 +37,8 @@ class PluginHost(StepAction):
             data: address of the mjData.
             bank: motors.
             links: `model::link` and its body.
-            joints: `model::joint` and its axes: index, addresses in qpos and qvel, sign, whether it can be driven.
+            joints: `model::joint`, its axes (index, addresses in qpos and qvel, sign, whether it can be driven), and
+                the link that moves with it, −1 for none, with its place in that link [m] and −1 if the link is its parent.
             collisions: `model::link::collision` of each geom.
         """
 
@@ -95,6 +98,9 @@ class PluginHost(StepAction):
 
     def begin_stride(self) -> None:
         """Act again at times that it has acted at."""
+
+    def finish_stride(self) -> None:
+        """Put back what moved in steps without physics."""
 
     def act(self, time_ns: int, step_ns: int) -> bool:
         """Act before a step; return False if there are requests or warnings."""

@@ -3,14 +3,14 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
-from trundle.robots.model import PluginTag
+from trundle.robots.model import PluginTag, Visual
 
-from ..plugin import Plugin, WorldPlugin
+from ..plugin import Plugin, VisualPlugin, WorldPlugin
 from .plugin_world import CompiledPlugins
 
 if TYPE_CHECKING:
     from trundle.ros import Node
-    from trundle.sim.simulation import ModelHandle, Simulation
+    from trundle.sim.simulation import LinkHandle, ModelHandle, Simulation
 
 
 def compiled_model_plugin(library: Path) -> type[Plugin]:
@@ -33,6 +33,36 @@ def compiled_model_plugin(library: Path) -> type[Plugin]:
             self._plugins.reset(self._number)
 
     return CompiledModelPlugin
+
+
+def compiled_visual_plugin(library: Path) -> type[VisualPlugin]:
+    """Return the class that loads a visual's plugin from a library."""
+
+    class CompiledVisualPlugin(VisualPlugin):
+        """Plugin of a visual in C++."""
+
+        def __init__(self, plugins: CompiledPlugins, number: int) -> None:
+            self._plugins, self._number = plugins, number
+
+        @classmethod
+        def load(
+            cls,
+            sim: "Simulation",
+            model: "ModelHandle",
+            link: "LinkHandle",
+            visual: Visual,
+            node: "Node | None",
+            tag: PluginTag,
+        ) -> Self:
+            """See `VisualPlugin.load`."""
+            plugins = CompiledPlugins.of(sim)
+            return cls(plugins, plugins.load(library, tag, f"{model.name}::{link.name}::{visual.name}", node))
+
+        def reset(self) -> None:
+            """Call the plugin's Reset."""
+            self._plugins.reset(self._number)
+
+    return CompiledVisualPlugin
 
 
 def compiled_world_plugin(library: Path) -> type[WorldPlugin]:

@@ -4,7 +4,7 @@ import math
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
-from weakref import WeakKeyDictionary, finalize, ref
+from weakref import WeakKeyDictionary, WeakValueDictionary, finalize, ref
 
 from trundle.base.diagnostics import DescriptionError, Source, TrundleError
 from trundle.robots.model import PluginTag
@@ -20,8 +20,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from trundle.ros import Node
+    from trundle.sim.sensors import CameraSensor
 
-_FUNCTIONS = ("mj_kinematics", "mj_comPos", "mj_comVel", "mj_contactForce")
+_FUNCTIONS = ("mj_kinematics", "mj_comPos", "mj_comVel", "mj_contactForce", "mj_rnePostConstraint")
 _NODE = "gazebo_plugins"
 """Name of the node of all compiled plugins: a process of roscpp is one node."""
 
@@ -36,6 +37,8 @@ class CompiledPlugins:
         self._positions: dict[str, Source] = {}
         """Beginning of a plugin's warnings → its element."""
         self._models: list[str] = []
+        self.cameras: WeakValueDictionary[str, CameraSensor] = WeakValueDictionary()
+        """`model::link::sensor` → camera with a plugin."""
         self._has_requests = False
         self._follow_world()
         sim.on_change(self._follow_world)
@@ -117,6 +120,7 @@ class CompiledPlugins:
     def finish_stride(self) -> None:
         """Do what the plugins asked for."""
         self._has_requests = False
+        self._host.finish_stride()
         self._finish_calls()
 
     def after_step(self, snapshot: Snapshot) -> None:
@@ -140,7 +144,11 @@ class CompiledPlugins:
 
     def _perform(self, sim: Simulation, words: list[str], numbers: list[float]) -> None:
         try:
-            perform(sim, words, numbers)
+            if words[0] == "border_crop":
+                if (camera := self.cameras.get(words[1])) is not None:
+                    camera.set_crop(numbers[0] != 0.0)
+            else:
+                perform(sim, words, numbers)
         except TrundleError as error:
             sim.report.warn_error(
                 error, self._at, "a compiled plugin asked for it", "compiled-plugin", subject="plugin"
@@ -164,8 +172,10 @@ class CompiledPlugins:
             )
         )
         joints = [
-            (name, [(axis, *axes[axis]) for axis in span])
-            for name, span in zip(compiled.joint_names, compiled.joint_axes, strict=True)
+            (name, [(axis, *axes[axis]) for axis in span], *anchor)
+            for name, span, anchor in zip(
+                compiled.joint_names, compiled.joint_axes, compiled.joint_anchors, strict=True
+            )
         ]
         self._host.bind(*engine.addresses, engine.motors.bank, links, joints, compiled.geom_collisions)
         names = [model.name for model in sim.world.models]

@@ -15,6 +15,8 @@ from trundle.robots.packages import Packages
 from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose
 
+from .visuals import change_visual, draw_line
+
 _Request: TypeAlias = Callable[[Simulation, Sequence[str], Sequence[float]], None]
 _FREE = 1e15
 """Limit from which on a joint is unlimited [rad or m]."""
@@ -117,6 +119,8 @@ def _set_step_size(sim: Simulation, words: Sequence[str], numbers: Sequence[floa
 
 _REQUESTS: Mapping[str, _Request] = {
     "set_model_pose": _set_model_pose,
+    "line": draw_line,
+    "visual": change_visual,
     "attach": _attach,
     "detach": _detach,
     "gravity": _set_gravity,

@@ -49,6 +49,8 @@ def attach_compiled_plugin(
     name = sensor.scoped_name
     if isinstance(sensor, CameraSensor) and sensor.optics.name:
         name = name.removesuffix(f"/{sensor.optics.name}")
+    elif isinstance(sensor, CameraSensor):
+        plugins.cameras[name] = sensor
     number = plugins.load(library, tag, name, node)
 
     def give(reading: Any, camera: NDArray[np.float64] | None = None) -> None:

@@ -80,7 +80,7 @@ def offer_rate(sensor: CameraSensor, parameters: TagParameters, names: PluginNam
 def read_border_crop(sensor: CameraSensor, parameters: TagParameters) -> None:
     """Apply <borderCrop>."""
     if not parameters.flag("borderCrop", default=True):
-        sensor.disable_crop()
+        sensor.set_crop(False)
 
 
 def camera_topic(sensor: CameraSensor, parameters: TagParameters, parameter: str, default: str) -> str:

@@ -127,9 +127,9 @@ class CameraSensor(LiveSensor[CameraReading]):
         self._is_triggered = self._is_triggered and False
         super().after_step(snapshot)
 
-    def disable_crop(self) -> None:
-        """Keep the full distorted image, with black borders."""
-        self.projection = projection_of(self.optics, self.intrinsics, crop=False)
+    def set_crop(self, crop: bool) -> None:
+        """Enlarge the distorted image until no border is black, as by default, or keep the full one."""
+        self.projection = projection_of(self.optics, self.intrinsics, crop=crop)
 
     def measure(self, snapshot: Snapshot) -> CameraReading:
         """Render an image."""
