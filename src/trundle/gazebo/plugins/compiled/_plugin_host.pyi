@@ -38,7 +38,7 @@ class PluginHost(StepAction):
             bank: motors.
             links: `model::link` and its body.
             joints: `model::joint`, its axes (index, addresses in qpos and qvel, sign, whether it can be driven), and
-                the link that moves with it, −1 for none, with its place in that link [m] and −1 if the link is its parent.
+                the link that moves with it, −1 for none, with its place there [m] and −1 if that is its parent.
             collisions: `model::link::collision` of each geom.
         """
 
