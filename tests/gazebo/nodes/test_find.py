@@ -65,6 +65,16 @@ def test_what_a_workspace_compiled_is_preferred_to_a_stand_in(tmp_path: Path) ->
     assert find_node("amcl", "amcl", lambda _: folder, env=env) == Executable(built)
 
 
+def test_linked_folders_of_a_package_are_searched_once(tmp_path: Path) -> None:
+    script = program(tmp_path / "shared/drive.py")
+    folder = tmp_path / "src/drive"
+    folder.mkdir(parents=True)
+    (folder / "scripts").symlink_to(script.parent)
+    (script.parent / "again").symlink_to(folder)
+    assert find_node("drive", "drive.py", lambda _: folder, env={}) == Executable(folder / "scripts/drive.py")
+    assert isinstance(find_node("drive", "turn.py", lambda _: folder, env={}), MissingNode)
+
+
 def test_a_stand_in_is_preferred_to_an_installed_program(tmp_path: Path) -> None:
     """Debian's rviz is a program in /usr/share/rviz."""
     program(tmp_path / "lib/rviz/rviz")

@@ -246,7 +246,12 @@ def _files(folder: Path, name: str) -> Iterator[Path]:
         if os.path.isfile(direct) and folder.resolve() in direct.resolve().parents:
             yield direct
         return
-    for root, folders, files in os.walk(folder):
+    seen: set[str] = set()
+    for root, folders, files in os.walk(folder, followlinks=True):
+        if (real := os.path.realpath(root)) in seen:  # a link to a folder above
+            folders.clear()
+            continue
+        seen.add(real)
         folders[:] = sorted(f for f in folders if not f.startswith(".") and f not in _NOT_SEARCHED)
         if name in files:
             yield Path(root) / name
