@@ -12,10 +12,10 @@ endif()
 find_package(Threads QUIET)
 
 # Boost's libraries that roscpp brings; those that are not installed are left out, as most programs need none.
+include("${CMAKE_CURRENT_LIST_DIR}/boost_library.cmake")
 set(_TRUNDLE_BOOST_LIBRARIES "")
 foreach(_trundle_library thread chrono filesystem system)
-  find_library(TRUNDLE_BOOST_${_trundle_library} NAMES boost_${_trundle_library} HINTS "${TRUNDLE_BOOST_PREFIX}/lib")
-  mark_as_advanced(TRUNDLE_BOOST_${_trundle_library})
+  _trundle_find_boost(${_trundle_library})
   if(TRUNDLE_BOOST_${_trundle_library})
     list(APPEND _TRUNDLE_BOOST_LIBRARIES "${TRUNDLE_BOOST_${_trundle_library}}")
   endif()

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from tests.graphs import until
+from tests.ros.sdk.conftest import require_compiler
 
 from trundle.base.diagnostics import UsageError
 from trundle.base.file_lock import FileLock
@@ -107,3 +108,25 @@ def test_without_a_compiler_zigs_is_taken(tmp_path: Path, monkeypatch: pytest.Mo
         f"-DCMAKE_RANLIB={tools}/ranlib",
     ]
     assert zig_definitions("/usr/bin/c++") == []
+
+
+def test_libraries_of_cmake_modules_are_found(tmp_path: Path) -> None:
+    require_compiler()
+    for file in ("include/uuid/uuid.h", "include/eigen3/Eigen/Core", "lib/libuuid.so", "lib/libuuid.dylib"):
+        path = tmp_path / "prefix" / file
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.touch()
+    (tmp_path / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.16)\nproject(tested NONE)\n"
+        "find_package(UUID REQUIRED)\nfind_package(Eigen REQUIRED)\nfind_package(NoSuchLibrary REQUIRED)\n"
+        'message("${UUID_INCLUDE_DIRS} ${UUID_LIBRARIES} ${EIGEN_INCLUDE_DIRS} ${Eigen_FOUND}")\n'
+    )
+    find = kit_sources() / "catkin/cmake/find.cmake"
+    command = [find_toolchain(os.environ).cmake, "-S", tmp_path, "-B", tmp_path / "build", "--no-warn-unused-cli"]
+    command += [f"-DCMAKE_PROJECT_INCLUDE={find}", f"-DCMAKE_PREFIX_PATH={tmp_path / 'prefix'}"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+
+    prefix = tmp_path / "prefix"
+    assert f"{prefix}/include {prefix}/lib/libuuid." in done.stderr, done.stdout + done.stderr
+    assert f"{prefix}/include/eigen3 TRUE\n" in done.stderr
+    assert (tmp_path / "build/trundle_missing.txt").read_text() == "NoSuchLibrary\n"

@@ -1,0 +1,12 @@
+# Find a library of Boost as TRUNDLE_BOOST_name: also one without its development link.
+macro(_trundle_find_boost name)
+  find_library(TRUNDLE_BOOST_${name} NAMES boost_${name} HINTS "${TRUNDLE_BOOST_PREFIX}/lib")
+  if(NOT TRUNDLE_BOOST_${name} AND CMAKE_LIBRARY_ARCHITECTURE)
+    file(GLOB _trundle_files "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/libboost_${name}.so.*")
+    if(_trundle_files)
+      list(GET _trundle_files 0 _trundle_file)
+      set(TRUNDLE_BOOST_${name} "${_trundle_file}" CACHE FILEPATH "Library of Boost." FORCE)
+    endif()
+  endif()
+  mark_as_advanced(TRUNDLE_BOOST_${name})
+endmacro()

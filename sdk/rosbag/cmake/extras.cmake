@@ -1,0 +1,1 @@
+include("${TRUNDLE_SDK}/rosbag_storage/cmake/extras.cmake")
