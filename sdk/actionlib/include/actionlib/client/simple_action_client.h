@@ -10,6 +10,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <string>
+#include <thread>
 
 #include "actionlib/action_definition.h"
 #include "actionlib/client/action_client.h"
@@ -80,12 +81,16 @@ class SimpleActionClient {
     waitForResult(preempt_timeout);
     return getState();
   }
+  /** Wait for the goal's end, until the callback for it has returned; a timeout of 0 s means no limit. */
   bool waitForResult(const ros::Duration& timeout = ros::Duration(0, 0)) {
     if (id().empty()) {
       ROS_ERROR("Trying to waitForResult() when no goal is running.");
       return false;
     }
-    return waitUntil(timeout, [this] { return getState().isDone(); });
+    return waitUntil(timeout, [this] {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      return state_.isDone() && (calling_ == std::thread::id() || calling_ == std::this_thread::get_id());
+    });
   }
   ResultConstPtr getResult() const {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -144,6 +149,7 @@ class SimpleActionClient {
   void onStatus(const actionlib_msgs::GoalStatusArrayConstPtr& message) {
     SimpleActiveCallback active;
     SimpleDoneCallback lost;
+    bool is_lost = false;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       has_status_message_ = true;
@@ -158,10 +164,19 @@ class SimpleActionClient {
       if (!is_listed && is_known_) {  // a new server does not know the goal
         state_ = SimpleClientGoalState(SimpleClientGoalState::LOST);
         lost = done_cb_;
+        is_lost = true;
+        calling_ = std::this_thread::get_id();
       }
     }
     if (active) active();
-    if (lost) lost(getState(), getResult());
+    if (is_lost) callDone(lost, getResult());
+  }
+
+  /** Call the callback for the goal's end, for which waitForResult waits. */
+  void callDone(const SimpleDoneCallback& callback, const ResultConstPtr& result) {
+    if (callback) callback(getState(), result);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    calling_ = std::thread::id();
   }
 
   /** Make the goal active, and return the callback to call; an empty one if it was active. Needs the mutex. */
@@ -196,8 +211,9 @@ class SimpleActionClient {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       state_ = SimpleClientGoalState(state, message->status.text);
+      calling_ = std::this_thread::get_id();
     }
-    if (done) done(getState(), ResultConstPtr(message, &message->result));
+    callDone(done, ResultConstPtr(message, &message->result));
   }
 
   ros::NodeHandle nh_;
@@ -213,6 +229,8 @@ class SimpleActionClient {
   SimpleDoneCallback done_cb_;
   SimpleActiveCallback active_cb_;
   SimpleFeedbackCallback feedback_cb_;
+  /** Thread that calls done_cb_ now; none: std::thread::id(). */
+  std::thread::id calling_;
 };
 
 }  // namespace actionlib
