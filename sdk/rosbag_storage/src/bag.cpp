@@ -92,8 +92,7 @@ uint8_t* Bag::reserve(const Connection& connection, const ros::Time& time, uint3
   if (impl_->open_chunk.empty()) impl_->open_info.pos = impl_->index_pos;
   const uint32_t id = impl_->connect(connection);
   const IndexEntry entry{time, impl_->open_info.pos, static_cast<uint32_t>(impl_->open_chunk.size())};
-  std::vector<IndexEntry>& entries = impl_->index[id];
-  entries.insert(std::upper_bound(entries.begin(), entries.end(), entry), entry);
+  impl_->addEntry(id, entry);
   impl_->open_index[id].push_back(entry);
   impl_->open_info.start = std::min(impl_->open_info.start, time);
   impl_->open_info.end = std::max(impl_->open_info.end, time);

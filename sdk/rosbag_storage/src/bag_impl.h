@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct Bag::Impl {
   /** Bytes of a message, until the next call. */
   const uint8_t* readMessage(const ConnectionInfo& connection, const IndexEntry& entry, uint32_t& size);
   uint32_t connect(const Bag::Connection& connection);
+  void addEntry(uint32_t connection, const IndexEntry& entry);
+  /** Messages of each connection in the order of their times. */
+  const std::map<uint32_t, std::vector<IndexEntry> >& sortedIndex();
   void writeHeader(uint64_t index_pos);
   void writeChunk();
   void writeIndex();
@@ -36,7 +40,6 @@ struct Bag::Impl {
   uint64_t size = 0;
   std::map<uint32_t, ConnectionInfo> connections;
   std::map<ros::M_string, uint32_t> ids;
-  std::map<uint32_t, std::vector<IndexEntry> > index;
   std::vector<ChunkInfo> chunks;
   uint64_t index_pos = 0;
   /** Number that changes with each message written. */
@@ -64,7 +67,9 @@ struct Bag::Impl {
   ChunkInfo readChunkInfo(const Record& record);
   void readEntries(const ChunkInfo& chunk);
   void loadChunk(uint64_t pos);
-  void addEntry(uint32_t connection, const IndexEntry& entry);
+  std::map<uint32_t, std::vector<IndexEntry> > index;
+  /** Connections whose messages came in another order than that of their times. */
+  std::set<uint32_t> unsorted;
 };
 
 }  // namespace rosbag

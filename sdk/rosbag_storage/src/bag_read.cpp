@@ -118,7 +118,14 @@ void Bag::Impl::readEntries(const ChunkInfo& of) {
 
 void Bag::Impl::addEntry(uint32_t connection, const IndexEntry& entry) {
   std::vector<IndexEntry>& entries = index[connection];
-  entries.insert(std::upper_bound(entries.begin(), entries.end(), entry), entry);
+  if (!entries.empty() && entry < entries.back()) unsorted.insert(connection);
+  entries.push_back(entry);
+}
+
+const std::map<uint32_t, std::vector<IndexEntry> >& Bag::Impl::sortedIndex() {
+  for (const uint32_t connection : unsorted) std::stable_sort(index[connection].begin(), index[connection].end());
+  unsorted.clear();
+  return index;
 }
 
 void Bag::Impl::loadChunk(uint64_t pos) {

@@ -71,8 +71,8 @@ const View::Messages& View::update() {
   std::vector<Found> found;
   std::set<std::tuple<const Bag*, uint64_t, uint32_t> > seen;
   for (const Query& query : queries_) {
-    const Bag::Impl& bag = *query.bag->impl_;
-    for (const auto& [id, entries] : bag.index) {
+    Bag::Impl& bag = *query.bag->impl_;
+    for (const auto& [id, entries] : bag.sortedIndex()) {
       const ConnectionInfo& connection = bag.connections.at(id);
       if (!query.choice(&connection)) continue;
       const auto first = std::lower_bound(entries.begin(), entries.end(), IndexEntry{query.start, 0, 0});
