@@ -1,6 +1,7 @@
 """A git server on loopback for tests."""
 
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -8,6 +9,8 @@ from collections.abc import Generator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from time import sleep
+
+import pytest
 
 _NOBODY = ("-c", "user.name=a", "-c", "user.email=a@b", "-c", "init.defaultBranch=main")
 
@@ -58,6 +61,8 @@ class GitServer:
 @contextmanager
 def git_server(folder: Path) -> Generator[GitServer]:
     """Serve repositories until the end of the block."""
+    if shutil.which("git") is None:
+        pytest.skip("git is not installed")
     folder.mkdir(exist_ok=True)
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
