@@ -1,4 +1,7 @@
-"""Three robots, each with a lidar: two driven wheels, a steered wheel, and wheels that roll sideways."""
+"""Three robots, each with a lidar: two driven wheels, a steered wheel, and wheels that roll sideways.
+
+The lidar is planar, or has 16 rings and publishes clouds.
+"""
 
 import math
 from typing import Any, NamedTuple
@@ -14,6 +17,14 @@ class Lidar(NamedTuple):
 
 
 LIDAR = Lidar(541, math.radians(270.0), 10.0)
+RINGS = 16
+"""Rays above one another of the other lidar, from −15° to 15°."""
+_PLANAR = """<plugin name="lidar" filename="libgazebo_ros_laser.so"><topicName>scan</topicName>
+<frameName>base_scan</frameName></plugin>"""
+_CLOUDS = """<plugin name="lidar" filename="libgazebo_ros_velodyne_laser.so"><topicName>/velodyne_points</topicName>
+<frameName>base_scan</frameName></plugin>"""
+_VERTICAL = f"""<vertical><samples>{RINGS}</samples><min_angle>-0.2618</min_angle><max_angle>0.2618</max_angle>
+</vertical>"""
 
 
 class Robot(NamedTuple):
@@ -29,7 +40,7 @@ class Robot(NamedTuple):
     """Least turning radius; 0: it turns on the spot [m]."""
     planner: dict[str, Any]
 
-    def sdf(self, pose: tuple[float, float, float], plugins: str) -> str:
+    def sdf(self, pose: tuple[float, float, float], plugins: str, *, has_rings: bool = False) -> str:
         """Return the model `robot` at a pose x, y [m], yaw [rad]."""
         x, y, yaw = pose
         half = LIDAR.span_rad / 2
@@ -38,10 +49,9 @@ class Robot(NamedTuple):
 <inertia><ixx>1e-4</ixx><iyy>1e-4</iyy><izz>1e-4</izz></inertia></inertial>
 <sensor name="lidar" type="ray"><update_rate>10</update_rate>
 <ray><scan><horizontal><samples>{LIDAR.beams}</samples><min_angle>{-half}</min_angle><max_angle>{half}</max_angle>
-</horizontal></scan><range><min>0.1</min><max>{LIDAR.range_m}</max></range>
+</horizontal>{_VERTICAL if has_rings else ""}</scan><range><min>0.1</min><max>{LIDAR.range_m}</max></range>
 <noise><type>gaussian</type><mean>0</mean><stddev>0.01</stddev></noise></ray>
-<plugin name="lidar" filename="libgazebo_ros_laser.so"><topicName>scan</topicName><frameName>base_scan</frameName>
-</plugin></sensor></link>
+{_CLOUDS if has_rings else _PLANAR}</sensor></link>
 <joint name="scan" type="fixed"><parent>base_footprint</parent><child>base_scan</child></joint>
 {self.drive}{plugins}</model>"""
 

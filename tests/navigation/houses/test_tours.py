@@ -35,6 +35,25 @@ def test_a_robot_maps_a_building_and_reaches_goals_in_it(tour: Tour, tmp_path: P
     assert driven["error_m"] < 0.15
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "tour",
+    [
+        Tour("flat", "differential", planner="eband_local_planner/EBandPlannerROS"),
+        Tour("flat", "differential", has_rings=True),
+    ],
+    ids=["an elastic band", "a lidar of 16 rings"],
+)
+def test_goals_in_the_flat_are_reached_with(tour: Tour, tmp_path: Path) -> None:
+    """The lidar of 16 rings is seen by amcl as scans, and by the costmaps as clouds."""
+    driven = tour.drive(tmp_path, tour.draw_map(tmp_path))
+
+    assert [goal["state"] for goal in driven["goals"]] == [_SUCCEEDED] * len(BUILDINGS["flat"].goals)
+    assert max(goal["beside_m"] for goal in driven["goals"]) < 0.3
+    assert driven["contacts"] == []
+    assert driven["error_m"] < 0.15
+
+
 def _judge_map(tour: Tour, file: Path, world_from_map: list[float]) -> tuple[float, float]:
     """Return the known share of the free floor, and how far 95 % of occupied cells are from a wall, at most [m]."""
     building, (start_x, start_y, yaw) = BUILDINGS[tour.building], world_from_map
