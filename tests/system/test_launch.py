@@ -529,16 +529,19 @@ def test_a_launch_with_a_failed_world_ends_after_its_duration(
     assert "[stays-2] killing on exit" in done.stdout
 
 
-def test_output_of_a_stand_in_goes_to_screen_or_log(launch: Launch, package: Path, tmp_path: Path) -> None:
+def test_output_of_a_stand_in_goes_to_screen_or_log(start, until, package: Path, tmp_path: Path) -> None:
     node = '<node pkg="tf2_ros" type="static_transform_publisher" name="{0}" args="0 0 0 0 0 0 x {0}" output="{1}"/>'
     (package / "main.launch").write_text(
         f"<launch>{node.format('loud', 'screen')}{node.format('mute', 'log')}</launch>"
     )
-    done = launch("p", "main.launch", "--headless", "--duration", "2", ROS_LOG_DIR=str(tmp_path / "logs"))
+    folders = {"ROS_PACKAGE_PATH": str(package.parent), "ROS_LOG_DIR": str(tmp_path / "logs")}
+    running = start("launch", "p", "main.launch", "--headless", **folders)
+    log = tmp_path / "logs/latest/mute-2-stdout.log"
 
-    assert "publishing x to loud" in done.stderr
-    assert "publishing x to mute" not in done.stderr
-    assert "publishing x to mute" in (tmp_path / "logs/latest/mute-2-stdout.log").read_text()
+    until("the loud one", lambda: "publishing x to loud" in running.output())
+    until("the log", lambda: log.is_file() and "publishing x to mute" in log.read_text())
+    assert running.interrupt() == 130
+    assert "publishing x to mute" not in running.output()
 
 
 @pytest.mark.slow
