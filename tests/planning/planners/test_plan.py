@@ -1,7 +1,7 @@
 """Plans of the seven-axis arm: valid, to the goal, and the same for the same request."""
 
 from collections.abc import Callable
-from itertools import pairwise
+from itertools import combinations, pairwise
 from typing import Any
 
 import msgspec
@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
+from tests.planning.arms import arm
 from tests.planning.scenes import ready, scene_with, seven_axis, thing
 
 from trundle.base.diagnostics import UsageError
+from trundle.planning.kinematics import Kinematics
 from trundle.planning.planners import (
     Constraints,
     ErrorCode,
@@ -134,6 +136,29 @@ def test_a_pose_is_reached_within_its_tolerances() -> None:
     assert np.abs(reached.rpy).max() < 2e-3
     assert result.waypoints[0] == pytest.approx(ready())
     _assert_valid(scene, result.waypoints)
+
+
+@pytest.mark.parametrize("name", ["scara", "four_axis"])
+def test_an_arm_of_four_joints_reaches_poses_within_their_tolerances(name: str) -> None:
+    """It reaches none of the poses in the tolerances exactly, but the one that was asked for."""
+    scene = PlanningScene(arm(name))
+    model, kinematics = scene.model, Kinematics(scene.model)
+    matrix = scene.allowed_collisions
+    for pair in combinations(model.links, 2):
+        matrix.set_entry(*pair, True)
+    scene.allowed_collisions = matrix
+    group = model.groups["arm"]
+    indices, tip = model.indices(group.variables), group.tips[0]
+    random = np.random.default_rng(3)
+    for number in range(20):
+        state = model.default_positions()
+        state[indices] = random.uniform(model.lower[indices], model.upper[indices])
+        pose = kinematics.link_pose(model.with_mimics(state), tip)
+        goals = (pose_goal(tip, pose),)
+        planned = _planned(scene, MotionPlanRequest(group="arm", goals=goals, seed=number, allowed_time=60.0))
+        reached = pose.inverse() @ kinematics.link_pose(planned.waypoints[-1], tip)
+        assert np.linalg.norm(reached.position) < 2e-4
+        assert np.abs(reached.rpy).max() < 2e-3
 
 
 def test_a_pose_in_the_frame_of_an_object() -> None:
