@@ -6,7 +6,7 @@ from typing import Any
 from tests.planning.move_group.arm_graph import add, box, send, start_arm
 
 _FINGERS = ["left_finger_joint"]
-_NO_OBJECT = -19
+_NO_OBJECT, _TIMED_OUT = -19, -6
 
 
 def _posture(position: float) -> dict[str, Any]:
@@ -87,3 +87,15 @@ def test_what_is_not_there_cannot_be_picked(graph: Any) -> None:
 
     assert result.result.error_code.val == _NO_OBJECT
     assert "The object 'vase' to pick is not in the planning scene; objects: none" in result.status.text
+
+
+def test_a_pick_that_runs_out_of_time_says_how_far_it_came(graph: Any) -> None:
+    start_arm(graph)
+    add(graph, box("table", 0.45, 0.0, 0.1, (0.3, 0.9, 0.2)), box("block", 0.45, 0.1, 0.25, (0.04, 0.04, 0.1)))
+    grasps = [_grasp(0.45, 0.1, 0.2)] * 60
+    asked = {"target_name": "block", "group_name": "arm", "end_effector": "gripper", "possible_grasps": grasps}
+
+    result = send(graph, "pickup", "moveit_msgs/Pickup", {**asked, "allowed_planning_time": 0.2})
+
+    assert result.result.error_code.val == _TIMED_OUT
+    assert "of 60 ways were tried in 0.2 s; the last: the hand does not get there" in result.status.text

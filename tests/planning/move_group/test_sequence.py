@@ -9,7 +9,7 @@ from tests.planning.move_group.arm_graph import ARM, joint_goal, request, send, 
 
 from trundle.planning.kinematics import Kinematics
 
-_PILZ = {
+_PILZ: dict[str, Any] = {
     "planning_plugin": "pilz_industrial_motion_planner::CommandPlanner",
     "capabilities": "pilz_industrial_motion_planner/MoveGroupSequenceAction "
     "pilz_industrial_motion_planner/MoveGroupSequenceService",

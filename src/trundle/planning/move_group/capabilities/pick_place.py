@@ -111,7 +111,8 @@ async def _plan(
     with context.node.loop.work.pending("a plan"):
         for index, attempt in enumerate(attempts):
             if index and context.node.clock.now_ns() > end_ns:
-                break
+                tried = f"{index} of {len(attempts)} ways were tried in {time_s:g} s"
+                return Failure(code=ErrorCode.TIMED_OUT, sentence=f"{tried}; the last: {failure.sentence}")
             found = await asyncio.to_thread(
                 plan_manipulation, context, attempt, start, planner_id=str(goal.planner_id), planning_time_s=time_s
             )

@@ -113,7 +113,7 @@ def plan_manipulation(
             lambda state: before.is_free(state, group=manipulation.group),
         )
         if grasp is None:
-            continue
+            break  # the search has been through thousands of random states
         way_in = _straight(context, before, manipulation, grasp, manipulation.approach, backwards=True)
         if isinstance(way_in, Failure):
             failure = way_in

@@ -1,5 +1,6 @@
 """The scene in which collisions are checked, kept equal to the contents."""
 
+import threading
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,7 +22,10 @@ _MAX_WARNINGS = 20
 
 
 class SceneMirror:
-    """Scene of the contents last asked for; what did not change is not built again."""
+    """Scene of the contents last asked for; what did not change is not built again.
+
+    Plans of a pick ask for it beside the graph's thread, which asks for it too.
+    """
 
     def __init__(self, node: Node, model: "RobotModel", packages: Packages | None) -> None:
         """Load the robot's shapes; findings go to the log.
@@ -33,15 +37,17 @@ class SceneMirror:
         self._node = node
         self._scene = PlanningScene(model, packages=packages, report=report)
         self._last: SceneContents | None = None
+        self._lock = threading.Lock()
         for finding in report.findings[:_MAX_WARNINGS]:
             node.log.warn(finding.what)
 
     def scene(self, contents: SceneContents, positions: np.ndarray) -> PlanningScene:
         """Return an independent scene of contents and a state; what cannot be checked is left out with a sentence."""
-        if self._last is not contents:
-            self._follow(contents)
-            self._last = contents
-        scene = self._scene.copy()
+        with self._lock:
+            if self._last is not contents:
+                self._follow(contents)
+                self._last = contents
+            scene = self._scene.copy()
         scene.positions = np.array(positions, dtype=np.float64)
         return scene
 
