@@ -9,8 +9,8 @@ import time
 from pathlib import Path
 
 import pytest
+from bench.arm_goals import ArmCase, run_goals
 from tests.graphs import free_port
-from tests.planning.move_group.arm_goals import run
 
 from trundle.ros import GraphLoop, Node
 
@@ -20,13 +20,11 @@ _TRAYS = {"red": (-0.2, 0.46), "green": (0.02, 0.52), "blue": (0.24, 0.52)}
 
 @pytest.mark.slow
 def test_random_goals_are_reached_without_collision(tmp_path: Path) -> None:
-    words = ["arm_moveit_config", "demo.launch", "use_rviz:=false", "fake_execution_type:=last point"]
+    case = ArmCase(launch=("arm_moveit_config demo.launch use_rviz:=false",), group="arm")
 
-    figures = run(words, goals=30, folder=tmp_path)
+    found = run_goals(case, 30, tmp_path, limit_s=_PATIENCE_S)
 
-    assert figures["goals"] == 30
-    assert figures["executed"] >= 30 * 0.98
-    assert figures["collisions"] == figures["beyond_limits"] == 0
+    assert (found.goals, found.executed, found.faults) == (30, 30, ())
 
 
 @pytest.mark.slow

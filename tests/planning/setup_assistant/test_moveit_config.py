@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 import yaml
+from bench.arm_goals import ArmCase, run_goals
 from tests.planning.arms import FOLDER, arm
-from tests.planning.move_group.arm_goals import run
 
 from trundle.app.cli import main
 from trundle.base.diagnostics import Diagnostics, UsageError
@@ -16,6 +16,7 @@ from trundle.planning.kinematics import read_kinematics
 from trundle.planning.robot_model import RobotModel, robot_model
 from trundle.planning.setup_assistant import DescriptionSource, moveit_config, write_moveit_config
 
+_PATIENCE_S = 900.0
 _LAUNCH = ("demo", "demo_gazebo", "gazebo", "move_group", "moveit_planning_execution", "planning_context")
 
 
@@ -153,11 +154,10 @@ def test_an_arm_plans_and_moves_by_its_made_package(name: str, folder: Path) -> 
     assert main(["new", "moveit_config", "own_moveit_config", "--urdf", str(FOLDER / f"{name}.urdf")]) == 0
     demo = folder / "own_moveit_config" / "launch" / "demo.launch"
 
-    figures = run([str(demo), "use_rviz:=false", "fake_execution_type:=last point"], goals=15, folder=folder)
+    words = f"{demo} use_rviz:=false"
+    found = run_goals(ArmCase(launch=(words,), group="arm"), 15, folder, limit_s=_PATIENCE_S)
 
-    assert figures["goals"] == 15
-    assert figures["executed"] == 15
-    assert figures["collisions"] == figures["beyond_limits"] == 0
+    assert (found.goals, found.executed, found.faults) == (15, 15, ())
 
 
 def test_faulty_commands_write_nothing(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
