@@ -14,6 +14,7 @@ namespace trundle::navigation {
 
 constexpr int kTreeDepth = 16;               // levels below the first cube, which spans 2^16 cubes
 constexpr std::size_t kMaxBlocks = 100'000;  // of 512 cubes: about 220 MB
+constexpr std::size_t kMaxMapCells = 100'000'000;
 
 struct TreeOptions {
   double resolution = 0.05;         // length of a cube [m]
@@ -64,6 +65,7 @@ class OccupancyTree {
   std::vector<TreeLeaf> leaves(CubeKind kind) const;
 
   // Projects the cubes between two heights, which touch those of the cubes: occupied if one is, else free if one is.
+  // Throws std::length_error for more than kMaxMapCells.
   Projection project(double low, double high) const;
 
   bool is_empty() const { return blocks_.empty(); }

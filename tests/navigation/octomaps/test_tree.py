@@ -11,6 +11,7 @@ from trundle.base.diagnostics import UsageError
 from trundle.navigation.octomaps._octomaps import OccupancyTree
 from trundle.navigation.octomaps.ground import is_ground
 from trundle.navigation.octomaps.octomap_file import load_octomap, read_resolution, write_octomap
+from trundle.navigation.octomaps.octomap_messages import map_fields
 from trundle.navigation.octomaps.octomap_settings import GroundFilter
 from trundle.planning.move_group.scene import read_octomap
 from trundle.ros import Messages
@@ -91,6 +92,19 @@ def test_the_projection_has_what_is_between_two_heights() -> None:
     assert (cells[0, :10] == 0).all()
     assert cells[10, 10] == -1  # only above
     assert (tree.project(2.0, 3.0)[2] == 100).nonzero() == ([10], [10])
+
+
+def test_a_map_of_too_many_cells_is_refused() -> None:
+    tree = _tree()
+    for corner in (-3000.0, 3000.0):
+        tree.insert((corner, corner, 0.0), np.array([[corner + 0.5, corner, 0.0]]), _NONE, max_range=-1.0)
+
+    with pytest.raises(ValueError, match=r"60006 × 60001 cells; at most 100000000"):
+        tree.project(-1.0, 1.0)
+    near = _tree()
+    near.insert((0.05, 0.05, 0.05), np.array([[1.05, 0.05, 0.05]]), _NONE, max_range=-1.0)
+    with pytest.raises(ValueError, match=r"20000 × 20000 cells; at most 100000000"):
+        map_fields(near, {"stamp": 0}, (-1.0, 1.0), (2000.0, 2000.0))
 
 
 def test_a_box_is_cleared(messages: Messages) -> None:

@@ -49,6 +49,9 @@ class OccupancyTree:
 
         Returns:
             Keys x, y of the first cell, and cells (height, width): −1 unknown, 0 free, 100 occupied.
+
+        Raises:
+            ValueError: there are more than 100 million cells.
         """
 
     def odds(self, point: Sequence[float]) -> float:

@@ -13,6 +13,7 @@ from .octomap_settings import Color
 _DEPTH = 16
 _CUBE_LIST, _ADD, _DELETE = 6, 0, 2
 _FLOAT = 7
+_MAX_CELLS = 100_000_000
 
 
 class Cubes(NamedTuple):
@@ -107,6 +108,9 @@ def map_fields(
         header: of the message.
         heights: lowest and highest cubes of the projection [m].
         least: least width and height of the map, about the origin [m].
+
+    Raises:
+        ValueError: the map has too many cells.
     """
     x, y, cells = tree.project(*heights)
     size, center = tree.resolution, 1 << (_DEPTH - 1)
@@ -116,6 +120,9 @@ def map_fields(
         _padding(first, count, half_m / 2.0 / size, center)
         for first, count, half_m in zip((x, y), (cells.shape[1], cells.shape[0]), least, strict=True)
     )
+    columns, rows = left + cells.shape[1] + right, below + cells.shape[0] + above
+    if columns * rows > _MAX_CELLS:
+        raise ValueError(f"{columns} × {rows} cells; at most {_MAX_CELLS}")
     cells = np.pad(cells, ((below, above), (left, right)), constant_values=-1)
     position = {"x": (x - left - center) * size, "y": (y - below - center) * size}
     info = {

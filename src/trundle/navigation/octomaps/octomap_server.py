@@ -155,11 +155,14 @@ class OctomapServer:
     async def _publish(self, stamp_ns: int, *, everything: bool) -> None:
         """Publish what somebody listens to, or everything; made beside the graph's thread."""
         async with self._busy:
-            messages = await asyncio.to_thread(self._messages, stamp_ns, everything)
+            messages, fault = await asyncio.to_thread(self._messages, stamp_ns, everything)
+        if fault:
+            self._warnings.warn(fault)
         for publisher, fields in messages:
             publisher.publish(fields)
 
-    def _messages(self, stamp_ns: int, everything: bool) -> list[tuple[Publisher, dict[str, Any]]]:
+    def _messages(self, stamp_ns: int, everything: bool) -> tuple[list[tuple[Publisher, dict[str, Any]]], str]:
+        """Return what is published, and why the map is not."""
         tree, settings = self._tree, self._settings
         header = {"stamp": stamp_ns, "frame_id": self._frame}
         heights = (settings.occupancy_min_z, settings.occupancy_max_z)
@@ -168,14 +171,19 @@ class OctomapServer:
             for publisher in (self._binary, self._full, self._map, self._occupied, self._free, self._centers)
         }
         found: list[tuple[Publisher, dict[str, Any]]] = []
+        fault = ""
         if wanted[self._binary]:
             found.append((self._binary, octomap_fields(tree, header, binary=True)))
         if wanted[self._full]:
             found.append((self._full, octomap_fields(tree, header, binary=False)))
         if wanted[self._map]:
-            grid = map_fields(tree, header, heights, (settings.min_x_size, settings.min_y_size))
-            if len(grid["data"]):
-                found.append((self._map, grid))
+            try:
+                grid = map_fields(tree, header, heights, (settings.min_x_size, settings.min_y_size))
+            except ValueError as error:
+                fault = f"the octomap has no {self._map.topic}: {error}"
+            else:
+                if len(grid["data"]):
+                    found.append((self._map, grid))
         if wanted[self._occupied] or wanted[self._centers]:
             cubes = read_cubes(tree, occupied=True, low=heights[0], high=heights[1])
             factor = settings.color_factor if settings.height_map else None
@@ -186,7 +194,7 @@ class OctomapServer:
             found.append(
                 (self._free, marker_fields(cubes, tree.resolution, header, self._free_color, height_factor=None))
             )
-        return found
+        return found, fault
 
     # -- services
 
