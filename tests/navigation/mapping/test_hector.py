@@ -1,6 +1,7 @@
 """hector_mapping: a small house is mapped from scans alone."""
 
 import math
+import time
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ from tests.navigation.laser_drive import ends, relative, scans, smooth_drive
 
 from trundle.navigation.mapping import _mapping
 from trundle.navigation.mapping.hector_settings import HectorSettings
-from trundle.ros import StaticTransformBroadcaster, Transform, TransformListener
+from trundle.ros import StaticTransformBroadcaster, Transform, TransformBroadcaster, TransformListener
 
 SIZE = 256
 
@@ -129,6 +130,37 @@ def test_the_node_publishes_map_poses_and_transforms_and_obeys_commands(graph: A
     graph.until(lambda: len(poses_out) > before)
     position = poses_out[-1].pose.position
     assert (position.x, position.y) == pytest.approx((2.0, 1.0))
+
+
+def test_a_scan_waits_for_the_odometry_of_its_time(graph: Any) -> None:
+    """The odometry's frame stays where it is, though odometry comes after the scans."""
+    poses_out = graph.listen("/slam_out_pose", "geometry_msgs/PoseStamped")
+    log = graph.listen("/rosout", "rosgraph_msgs/Log")
+    buffer = TransformListener(graph.client).buffer
+    params = {"map_resolution": RESOLUTION, "map_size": SIZE, "laser_min_dist": 0.1}
+    graph.start("hector_mapping/hector_mapping", **params, map_update_distance_thresh=0.05)
+    StaticTransformBroadcaster(graph.client).send_transform(Transform(parent="base_link", child="base_scan"))
+    odometry = TransformBroadcaster(graph.client)
+
+    def send(number: int) -> None:
+        place = (3.0 + 0.04 * number, 0.0, 0.0)
+        stamp_ns = 10**9 + number * 10**8
+        odometry.send_transform(Transform(parent="odom", child="base_link", stamp_ns=stamp_ns, translation=place))
+
+    scans_in = graph.advertise("/scan", "sensor_msgs/LaserScan")
+    graph.until(lambda: graph.linked("/slam_out_pose") and graph.linked("/tf"))
+    send(-1)
+    graph.until(lambda: buffer.can_transform("odom", "base_link"))
+    drive = [(1.0, 1.0 + 0.04 * step, math.pi / 2) for step in range(10)]
+    for number, ranges in enumerate(scans(drive)):
+        scans_in.publish(scan_fields(ranges, 10**9 + number * 10**8))
+        time.sleep(0.05)  # the scan is there, and nothing comes of it
+        send(number)
+        graph.until(lambda count=number + 1: len(poses_out) >= count)
+
+    graph.until(lambda: buffer.can_transform("map", "odom"))
+    assert buffer.lookup_transform("map", "odom").translation[0] == pytest.approx(-3.0, abs=0.05)
+    assert not [line.msg for line in log if "assumed to be at rest" in line.msg]
 
 
 @pytest.mark.parametrize(

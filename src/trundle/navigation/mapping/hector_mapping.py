@@ -59,9 +59,10 @@ class HectorMapping:
         )
         self._advertise(settings)
         size = settings.scan_subscriber_queue_size
-        queue = ScanQueue(node, self._process, size=size)
-        self._scans = TransformFilter(node, self._base, queue.add, queue_size=size)
-        receive = self._scans.add if settings.use_tf_scan_transformation else queue.add
+        self._queue = queue = ScanQueue(node, self._process, size=size)
+        self._scans = TransformFilter(node, self._base, self._align, queue_size=size)
+        self._aligned = TransformFilter(node, self._odom, queue.add, queue_size=size)
+        receive = self._scans.add if settings.use_tf_scan_transformation else self._align
         node.subscribe(settings.scan_topic, "sensor_msgs/LaserScan", receive, queue_size=size)
         node.subscribe(settings.sys_msg_topic, "std_msgs/String", self._on_command, queue_size=2)
         node.subscribe("initialpose", "geometry_msgs/PoseWithCovarianceStamped", self._on_pose, queue_size=2)
@@ -130,6 +131,15 @@ class HectorMapping:
             self._node.log.warn(f"an initial pose is ignored: {error}")
 
     # -- scans
+
+    def _align(self, scan: "sensor_msgs.LaserScan") -> None:
+        """Let a scan wait until odometry reaches its stamp; not where nobody publishes odometry, or nobody asks."""
+        settings = self._settings
+        uses_odometry = settings.pub_map_odom_transform and self._odom != self._base
+        if uses_odometry and self._aligned.buffer.can_transform(self._odom, self._base):
+            self._aligned.add(scan, self._base)
+        else:
+            self._queue.add(scan)
 
     async def _process(self, scan: "sensor_msgs.LaserScan") -> None:
         if self._is_paused:
