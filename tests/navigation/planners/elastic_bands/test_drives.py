@@ -91,13 +91,22 @@ def test_a_steering_angle_replaces_the_turning_speed() -> None:
     assert np.abs(angles.velocities[:, 2]).max() > 0.05
 
 
-def test_parameters_that_teb_does_not_have_are_named(caplog: pytest.LogCaptureFixture) -> None:
-    own = {**_TEB, "max_vel_xx": 1.0, "oscillation_recovery": True, "odom_topic": "odom"}
-    drive(TebLocalPlannerROS, house_cells(), _ROUND, own, _START, _GOAL, limit_s=0.1)
+@pytest.mark.parametrize(
+    ("planner", "name", "without_effect"),
+    [
+        (TebLocalPlannerROS, "teb_local_planner", "oscillation_recovery"),
+        (EBandPlannerROS, "eband_local_planner", "k_damp"),
+    ],
+)
+def test_parameters_that_a_planner_does_not_have_are_named(
+    planner: type[Any], name: str, without_effect: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    own = {"xy_goal_tolerance": 0.1, "max_vel_xx": 1.0, without_effect: 1.0, "odom_topic": "odom"}
+    drive(planner, house_cells(), _ROUND, own, _START, _GOAL, limit_s=0.1)
 
     warnings = [record.getMessage() for record in caplog.records]
-    assert "/move_base/Planner: teb_local_planner has no parameters max_vel_xx" in warnings
-    assert "/move_base/Planner: parameters without effect: oscillation_recovery" in warnings
+    assert f"/move_base/Planner: {name} has no parameters max_vel_xx" in warnings
+    assert f"/move_base/Planner: parameters without effect: {without_effect}" in warnings
 
 
 @pytest.mark.parametrize("is_differential", [True, False])

@@ -20,6 +20,7 @@ from ..goal_stop import Velocity
 from ..interfaces import Pose2D
 from ..motion import OdometryReader, angle_between, approach
 from ._bands import BubbleSettings, obstacle_outline, relax_bubbles
+from .unused_parameters import report_unused
 
 _Positive = Annotated[float, Meta(ge=0.0, le=1000.0)]
 _Count = Annotated[int, Meta(ge=1, le=100)]
@@ -59,6 +60,21 @@ class EBandSettings(msgspec.Struct, kw_only=True):
 
 
 _OLD_NAMES = {"max_vel_theta": "max_vel_th"}
+_USED = frozenset({*EBandSettings.__struct_fields__, *_OLD_NAMES, "controller_frequency", "odom_topic"})
+_WITHOUT_EFFECT = frozenset(
+    {
+        "Ctrl_Rate",
+        "costmap_weight",
+        "disallow_hysteresis",
+        "eband_equilibrium_relative_overshoot",
+        "eband_tiny_bubble_distance",
+        "in_place_trans_vel",
+        "k_damp",
+        "k_prop",
+        "virtual_mass",
+    }
+)
+"""Parameters of the original that are read by nothing: the robot drives arcs, and follows no virtual mass."""
 
 
 class _Limits:
@@ -91,6 +107,7 @@ class EBandPlannerROS(Follower):
         odom: OdometryReader,
     ) -> None:
         self._settings = settings = read_settings(EBandSettings, section.renamed(_OLD_NAMES))
+        report_unused(node, section, "eband_local_planner", used=_USED, without_effect=_WITHOUT_EFFECT)
         self._limits_now = limits = _Limits(settings)
         self._bubbles = np.empty((0, 3))
         super().__init__(

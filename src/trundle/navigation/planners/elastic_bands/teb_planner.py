@@ -20,7 +20,8 @@ from ..path_message import path_message
 from ._bands import obstacle_outline
 from .band_topics import BandTopics
 from .candidates import Candidate, Candidates, Velocity, headings
-from .teb_settings import TebSettings, band_settings, read_body, unused_parameters
+from .teb_settings import USED, WITHOUT_EFFECT, TebSettings, band_settings, read_body
+from .unused_parameters import report_unused
 
 _VISIBLE = 0.85
 """Share of the local costmap's half in which the plan is followed, as in the original."""
@@ -52,11 +53,7 @@ class TebLocalPlannerROS:
         self._odom = odom
         self._settings = settings = read_settings(TebSettings, section)
         self._body = read_body(section, costmap.footprint)
-        unused, unknown = unused_parameters(section)
-        if unused:
-            node.log.warn(f"{section.namespace}: parameters without effect: {', '.join(unused)}")
-        if unknown:
-            node.log.warn(f"{section.namespace}: teb_local_planner has no parameters {', '.join(unknown)}")
+        report_unused(node, section, "teb_local_planner", used=USED, without_effect=WITHOUT_EFFECT)
         self._plan = FollowedPlan(node, costmap, buffer)
         self._candidates = Candidates(settings)
         self._topics = BandTopics(node, name, costmap, buffer)

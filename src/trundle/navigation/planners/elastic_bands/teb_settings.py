@@ -106,14 +106,8 @@ _WITHOUT_EFFECT = """
 """
 WITHOUT_EFFECT = frozenset(_WITHOUT_EFFECT.split())
 """Parameters of the original that are read by nothing."""
-_OTHERS = frozenset({"footprint_model", "map_frame", "odom_topic"})
-
-
-def unused_parameters(section: RosParameters) -> tuple[list[str], list[str]]:
-    """Return which parameters of a section act on nothing here, and which the original does not have."""
-    names = section.names()
-    known = WITHOUT_EFFECT.union(TebSettings.__struct_fields__, _OTHERS)
-    return sorted(WITHOUT_EFFECT.intersection(names)), sorted(name for name in names if name not in known)
+USED = frozenset({*TebSettings.__struct_fields__, "footprint_model", "map_frame", "odom_topic"})
+"""Parameters that act here."""
 
 
 def band_settings(settings: TebSettings) -> BandSettings:
