@@ -20,6 +20,8 @@ class Transformer {
   virtual ~Transformer() {}
 
   void clear() { buffer_->clear(); }
+  // Nothing is extrapolated, with any limit, as in tf since it is built on tf2.
+  void setExtrapolationLimit(const ros::Duration&) {}
   bool setTransform(const StampedTransform& transform, const std::string& authority = "default_authority");
   void lookupTransform(const std::string& target_frame, const std::string& source_frame, const ros::Time& time,
                        StampedTransform& transform) const;
