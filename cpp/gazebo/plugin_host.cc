@@ -1,6 +1,7 @@
 #include "plugin_host.h"
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -33,6 +34,10 @@ void warn(void* self, const char* text) { world_at(self).warn(text); }
 void enter(void*, const char* plugin) { set_running_plugin(plugin); }
 void begin_call(void* self) { world_at(self).begin_call(); }
 void end_call(void* self) { world_at(self).end_call(); }
+
+// What ends the nodes of libraries, and the number of hosts that have plugins.
+std::set<void (*)()> stop_functions;
+int hosts_with_plugins = 0;
 
 struct Call {
   explicit Call(PluginWorld& of) : world(of) { world.enter_call(); }
@@ -98,6 +103,8 @@ void PluginHost::start_ros(std::uintptr_t address, const std::string& master_uri
   void* starter = open_library((roscpp.substr(0, slash) + "/libgazebo_ros" + roscpp.substr(dot)).c_str());
   if (void* start = symbol(starter, "trundle_gazebo_start_ros"))
     reinterpret_cast<void (*)(const char*, const char*)>(start)(master_uri.c_str(), node.c_str());
+  if (void* stop = symbol(starter, "trundle_gazebo_stop_ros"))
+    stop_functions.insert(reinterpret_cast<void (*)()>(stop));
 #endif
 }
 
@@ -117,6 +124,7 @@ PluginHost::Kit& PluginHost::kit_of(void* library) {
     const std::string& elements = models_[name];
     functions->add_model(world, name.c_str(), elements.data(), static_cast<std::int64_t>(elements.size()));
   }
+  if (kits_.empty()) ++hosts_with_plugins;
   kits_.push_back({functions, world});
   return kits_.back();
 }
@@ -160,6 +168,8 @@ void PluginHost::take_reading(int plugin, std::int64_t time_ns, const TrundleGaz
 }
 
 void PluginHost::close() {
+  if (!kits_.empty() && --hosts_with_plugins == 0)
+    for (const auto stop : std::exchange(stop_functions, {})) stop();
   const Call call(world_);
   for (Kit& kit : kits_) kit.functions->close(kit.world);
   kits_.clear();

@@ -20,6 +20,7 @@ public:
     this->queue.disable();
     if (this->node)
       this->node->shutdown();
+    this->node.reset();  // before its thread has ended, as in many plugins
     this->thread.join();
   }
 
