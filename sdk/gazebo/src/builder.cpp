@@ -137,6 +137,13 @@ void Builder::AddCollision(const LinkPtr& link, const sdf::ElementPtr& sdf) {
   collision->initial_ = pose_of(sdf);
   collision->is_static_ = link->is_static_;
   collision->surface_ = boost::make_shared<SurfaceParams>();
+  const auto below = [](const sdf::ElementPtr& e, const char* name) { return e ? e->FindElement(name) : e; };
+  const sdf::ElementPtr friction = below(below(sdf, "surface"), "friction");
+  if (const sdf::ElementPtr ode = below(friction, "ode")) {
+    physics::FrictionPyramid& pyramid = *collision->surface_->FrictionPyramid();
+    pyramid.mu1_ = ode->Get<double>("mu", 1.0).first;
+    pyramid.mu2_ = ode->Get<double>("mu2", 1.0).first;
+  }
   if (const sdf::ElementPtr geometry = sdf->FindElement("geometry")) collision->shape_ = MakeShape(collision, geometry);
   link->collisions_.push_back(collision);
   link->AddChild(collision);

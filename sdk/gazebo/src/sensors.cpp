@@ -69,6 +69,21 @@ void RaySensor::Read(const sdf::ElementPtr& sdf) {
   scans_ = node.Advertise<msgs::LaserScanStamped>(topic_);
 }
 
+void Noise::SetCustomNoiseCallback(std::function<double(double)> function) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  function_ = std::move(function);
+  type_ = CUSTOM;
+}
+
+double Noise::Apply(double value) const {
+  std::function<double(double)> function;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    function = function_;
+  }
+  return function ? function(value) : value;
+}
+
 void RaySensor::Ranges(std::vector<double>& ranges) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   ranges = ranges_;
@@ -77,6 +92,8 @@ void RaySensor::Ranges(std::vector<double>& ranges) const {
 void RaySensor::Set(const TrundleGazeboReading& reading) {
   const int64_t count = reading.count / 2;
   ranges_.assign(reading.values, reading.values + count);
+  for (double& range : ranges_)
+    if (range < range_[1]) range = noise_->Apply(range);
   retros_.assign(reading.values + count, reading.values + 2 * count);
 }
 
@@ -191,6 +208,15 @@ void ContactSensor::Set(const TrundleGazeboReading& reading) {
     msgs::Set(wrench->mutable_body_1_wrench()->mutable_force(), force);
     msgs::Set(wrench->mutable_body_2_wrench()->mutable_force(), -force);
   }
+}
+
+std::map<std::string, physics::Contact> ContactSensor::Contacts(const std::string& collision) const {
+  std::map<std::string, physics::Contact> contacts;
+  const msgs::Contacts all = Contacts();
+  for (const msgs::Contact& contact : all.contact())
+    if (contact.collision1() == collision) contacts[contact.collision2()] = contact;
+    else if (contact.collision2() == collision) contacts[contact.collision1()] = contact;
+  return contacts;
 }
 
 unsigned int ContactSensor::GetCollisionContactCount(const std::string& collision) const {

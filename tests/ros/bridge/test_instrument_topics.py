@@ -271,7 +271,7 @@ def test_a_force_torque_sensor_has_noise_on_each_axis(load_world: Any) -> None:
             "<ray><scan><horizontal><samples>0</samples></horizontal></scan>" + FAR,
             "0 samples is not possible; 1 is used",
         ),
-        ("ray", f"<ray>{PINK}{FAR}", "no noise type 'pink': gaussian, gaussian_quantized, none; none is used"),
+        ("ray", f"<ray>{PINK}{FAR}", "no noise type 'pink': gaussian, gaussian_quantized, custom, none; none is used"),
         ("ray", f"<ray><noise><precision>-1</precision></noise>{FAR}", "a precision of -1 is not possible"),
         ("contact", "<contact><collision>b_m::l::nobody</collision></contact>", "no collision 'nobody' on link 'l';"),
         (

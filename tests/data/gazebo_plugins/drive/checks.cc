@@ -111,6 +111,17 @@ private:
     const physics::BoxShapePtr shape =
         boost::dynamic_pointer_cast<physics::BoxShape>(this->body->GetCollision("shape")->GetShape());
     CHECK(shape && shape->Size() == ignition::math::Vector3d(0.1, 0.2, 0.3));
+    CHECK(this->body->GetCollision("shape")->GetSurface()->FrictionPyramid()->MuPrimary() == 0.25);
+    physics::Contact contact;
+    contact.positions[0] = ignition::math::Vector3d(1, 2, 3);
+    contact.normals[1] = contact.positions[0];
+    contact.positions[0].z = 4;
+    CHECK(contact.positions[0].Z() == 4 && contact.normals[1].z == 3 && contact.normals[1].Length() > 3.7);
+    const math::Vector3 sum = math::Vector3(1, 1, 1) + contact.positions[0];
+    CHECK(sum == math::Vector3(2, 3, 5));
+    const physics::Contact copy = contact;
+    contact.positions[0].x = 9;
+    CHECK(copy.positions[0].x == 1 && copy.positions[0] + ignition::math::Vector3d::One == sum.Ign());
     this->turn = this->world->ModelByName("arm")->GetJoint("turn");
     CHECK(this->turn->DOF() == 1 && this->turn->GetChild()->GetName() == "tip" && this->turn->GetParent());
     CHECK(this->turn->LowerLimit(0) == -2 && this->turn->GetUpperLimit(0).Radian() == 3);

@@ -42,6 +42,7 @@ class Sense : public SensorPlugin {
       node_ = transport::NodePtr(new transport::Node());
       node_->Init(sensor->WorldName());
       scans_ = node_->Subscribe(sensor->Topic(), &Sense::OnScan, this);
+      sensor->Noise(sensors::RAY_NOISE)->SetCustomNoiseCallback([](double range) { return range + 0.25; });
     }
     updated_ = sensor->ConnectUpdated([this] { OnUpdate(); });
     sensor->SetActive(true);
@@ -74,7 +75,7 @@ class Sense : public SensorPlugin {
         for (int k = 0; k < contacts.contact(i).wrench_size(); ++k)
           force += contacts.contact(i).wrench(k).body_1_wrench().force().z();
       std::snprintf(text, sizeof(text), "%.1f N with %s", force,
-                    contacts.contact_size() ? contacts.contact(0).collision2().c_str() : "nothing");
+                    contacts.contact_size() ? contact->Contacts("box::body::hull").begin()->first.c_str() : "nothing");
     } else if (auto cameras = std::dynamic_pointer_cast<sensors::MultiCameraSensor>(sensor_)) {
       std::string seen = order_.substr(order_.size() - 2);
       for (unsigned int i = 0; i < cameras->CameraCount(); ++i) {

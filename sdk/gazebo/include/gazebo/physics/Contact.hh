@@ -23,8 +23,8 @@ class Contact {
   Collision* collision2;
   int count;
   common::Time time;
-  ignition::math::Vector3d positions[MAX_CONTACT_JOINTS];
-  ignition::math::Vector3d normals[MAX_CONTACT_JOINTS];
+  WrenchVector positions[MAX_CONTACT_JOINTS];
+  WrenchVector normals[MAX_CONTACT_JOINTS];
   JointWrench wrench[MAX_CONTACT_JOINTS];
   double depths[MAX_CONTACT_JOINTS];
 };

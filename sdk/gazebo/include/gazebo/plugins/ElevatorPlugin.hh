@@ -5,6 +5,8 @@
 #include <mutex>
 #include <string>
 
+#include <boost/thread.hpp>  // as the original brings it
+
 #include <gazebo/common/Events.hh>
 #include <gazebo/common/PID.hh>
 #include <gazebo/common/Plugin.hh>

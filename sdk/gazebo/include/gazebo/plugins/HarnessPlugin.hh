@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <boost/thread.hpp>  // as the original brings it
+
 #include <gazebo/common/Events.hh>
 #include <gazebo/common/PID.hh>
 #include <gazebo/common/Plugin.hh>

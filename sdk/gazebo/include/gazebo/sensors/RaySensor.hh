@@ -6,6 +6,7 @@
 
 #include <gazebo/math/Angle.hh>
 #include <gazebo/msgs/msgs.hh>
+#include <gazebo/sensors/Noise.hh>
 #include <gazebo/sensors/Sensor.hh>
 #include <gazebo/transport/transport.hh>
 
@@ -66,6 +67,8 @@ class RaySensor : public Sensor {
   int VerticalRangeCount() const { return vertical_count_; }
   void Ranges(std::vector<double>& ranges) const;
   double Range(unsigned int index) const { return At(ranges_, index); }
+  // Of the ranges within reach.
+  NoisePtr Noise(SensorNoiseType) const override { return noise_; }
   double Retro(unsigned int index) const { return At(retros_, index); }
   int Fiducial(unsigned int) const { return -1; }
   bool IsWanted() const override { return Sensor::IsWanted() || new_scans_.ConnectionCount() > 0 || HasReaders(); }
@@ -115,6 +118,7 @@ class RaySensor : public Sensor {
   double angle_[2] = {0.0, 0.0}, vertical_angle_[2] = {0.0, 0.0}, range_[2] = {0.0, 0.0}, resolution_ = 0.0;
   int count_ = 1, vertical_count_ = 1;
   std::vector<double> ranges_, retros_;
+  NoisePtr noise_ = std::make_shared<sensors::Noise>();
   transport::PublisherPtr scans_;
   event::EventT<void(const float*, unsigned int, unsigned int, unsigned int, const std::string&)> new_scans_;
 };

@@ -50,6 +50,10 @@ class Sensor : public std::enable_shared_from_this<Sensor> {
   common::Time LastMeasurementTime() const { return last_; }
   sdf::ElementPtr GetSDF() const { return sdf_; }
 
+  // Null where the kind of sensor has none that a plugin can set: all but rays.
+  virtual NoisePtr Noise(SensorNoiseType) const { return NoisePtr(); }
+  NoisePtr GetNoise(unsigned int = 0) const { return Noise(RAY_NOISE); }
+
   // Called after each reading.
   event::ConnectionPtr ConnectUpdated(std::function<void()> subscriber) { return updated_.Connect(subscriber); }
   void DisconnectUpdated(event::ConnectionPtr connection) { updated_.Disconnect(connection); }

@@ -22,6 +22,7 @@ class ContactSensor;
 class GpsSensor;
 class SonarSensor;
 class ForceTorqueSensor;
+class Noise;
 typedef std::shared_ptr<Sensor> SensorPtr;
 typedef std::shared_ptr<RaySensor> RaySensorPtr;
 typedef std::shared_ptr<GpuRaySensor> GpuRaySensorPtr;
@@ -33,7 +34,10 @@ typedef std::shared_ptr<ContactSensor> ContactSensorPtr;
 typedef std::shared_ptr<GpsSensor> GpsSensorPtr;
 typedef std::shared_ptr<SonarSensor> SonarSensorPtr;
 typedef std::shared_ptr<ForceTorqueSensor> ForceTorqueSensorPtr;
+typedef std::shared_ptr<Noise> NoisePtr;
 typedef std::vector<SensorPtr> Sensor_V;
+
+enum SensorNoiseType { NO_NOISE, CAMERA_NOISE, GPU_RAY_NOISE, RAY_NOISE };
 
 enum SensorCategory { IMAGE = 0, RAY = 1, OTHER = 2, CATEGORY_COUNT = 3 };
 

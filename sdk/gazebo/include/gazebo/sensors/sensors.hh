@@ -10,6 +10,7 @@
 #include <gazebo/sensors/GpuRaySensor.hh>
 #include <gazebo/sensors/ImuSensor.hh>
 #include <gazebo/sensors/MultiCameraSensor.hh>
+#include <gazebo/sensors/Noise.hh>
 #include <gazebo/sensors/RaySensor.hh>
 #include <gazebo/sensors/Sensor.hh>
 #include <gazebo/sensors/SensorManager.hh>

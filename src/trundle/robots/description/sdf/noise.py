@@ -7,11 +7,11 @@ from .context import Context
 
 _MAX_PARAMETER = 1e15
 """Maximum of any noise parameter, in its unit."""
-_TYPES = ("gaussian", "gaussian_quantized", "none")
+_TYPES = ("gaussian", "gaussian_quantized", "custom", "none")
 
 
 def read_noise(node: XmlNode | None, context: Context) -> Noise:
-    """Read Gaussian noise; other types are no noise, with a warning."""
+    """Read Gaussian noise; a custom one is added by a plugin; other types are no noise, with a warning."""
     if node is None:
         return Noise()
     report = context.report
@@ -21,7 +21,7 @@ def read_noise(node: XmlNode | None, context: Context) -> Noise:
             node.at, f"no noise type {type_!r}: {', '.join(_TYPES)}; none is used, as in Gazebo", "unknown-choice"
         )
         return Noise()
-    if type_ == "none":
+    if type_ in ("none", "custom"):
         return Noise()
     noise = Noise(
         mean=_number(node, "mean", context),
