@@ -1,12 +1,10 @@
 """Programs of tests/data/sdk, compiled by catkin_make, on a graph with Trundle's master, tools and nodes."""
 
 import os
-import random
 import re
 import shutil
 import signal
 import socket
-import struct
 import subprocess
 import sys
 from contextlib import suppress
@@ -15,6 +13,7 @@ from pathlib import Path
 import pytest
 from tests.graphs import Graph, until
 from tests.ros.sdk.conftest import SOURCE, WAIT_S, Running, require_compiler
+from tests.ros.sdk.hostile_peers import attack, listening_ports, request
 
 from trundle.ros import Messages
 from trundle.ros.sdk import Headers, Kit, PackageBuilder, find_toolchain, kit_sources
@@ -101,59 +100,15 @@ def test_a_program_answers_the_request_to_shut_down(running: Running, graph: Gra
 
 
 def test_hostile_peers_do_not_end_a_node(running: Running, graph: Graph) -> None:
-    """Headers and requests of random bytes, with lengths that lie."""
     node = graph.node("tester")
     ticks: list[float] = []
     node.subscribe("/add_two_ints_server/ticks", "std_msgs/Float64", lambda message: ticks.append(message.data))
     server = running.start("add_two_ints_server")
     until(lambda: ticks)
-    listening = subprocess.run(
-        [sys.executable, "-c", _LISTENING, str(server.pid)], capture_output=True, text=True, check=True
-    )
-    ports = [int(word) for word in listening.stdout.split()]
-    assert len(ports) == 2, "XML-RPC and TCPROS"
-    rng = random.Random(3)
-    header = b"".join(
-        struct.pack("<I", len(field)) + field
-        for field in (b"service=/add_two_ints", b"md5sum=*", b"callerid=/x", b"persistent=1")
-    )
-    valid = struct.pack("<I", len(header)) + header
-    attacks = [
-        *(struct.pack("<I", size) + rng.randbytes(40) for size in (0, 1, 4, 36, 2**31, 2**32 - 1)),
-        struct.pack("<I", 8) + struct.pack("<I", 2**32 - 1) + b"abcd",
-        *(
-            valid + struct.pack("<I", size) + rng.randbytes(min(size, 64))
-            for size in (0, 3, 16, 999_999_999, 2**32 - 1)
-        ),
-        b"POST / HTTP/1.1\r\nContent-Length: 99999999999999999999\r\n\r\n",
-        b"POST / HTTP/1.1\r\nContent-Length: -5\r\n\r\n",
-        *(_request(body) for body in (b"", b"<", b"<value>" * 5000, rng.randbytes(500))),
-        _request(b"<methodCall><methodName>publisherUpdate</methodName><params></params></methodCall>"),
-        _request(b"<methodCall><methodName>requestTopic</methodName><params><param><value><i4>9</i4></value></param>"),
-    ]
-    for port in ports:
-        for attack in attacks:
-            with socket.create_connection(("127.0.0.1", port)) as peer:
-                peer.sendall(attack)
-                peer.settimeout(0.05)
-                with suppress(OSError):
-                    while peer.recv(4096):
-                        pass
+    attack(server.pid)
     count = len(ticks)
     until(lambda: len(ticks) > count + 3)
     assert server.poll() is None
-
-
-_LISTENING = """
-import psutil, sys
-for connection in psutil.Process(int(sys.argv[1])).net_connections("tcp"):
-    if connection.status == "LISTEN":
-        print(connection.laddr.port)
-"""
-
-
-def _request(body: bytes) -> bytes:
-    return b"POST / HTTP/1.1\r\nContent-Type: text/xml\r\nContent-Length: %d\r\n\r\n%s" % (len(body), body)
 
 
 def test_a_web_page_is_refused(running: Running, graph: Graph) -> None:
@@ -162,15 +117,12 @@ def test_a_web_page_is_refused(running: Running, graph: Graph) -> None:
     node.subscribe("/add_two_ints_server/ticks", "std_msgs/Float64", lambda message: ticks.append(message.data))
     server = running.start("add_two_ints_server")
     until(lambda: ticks)
-    listening = subprocess.run(
-        [sys.executable, "-c", _LISTENING, str(server.pid)], capture_output=True, text=True, check=True
-    )
     body = b"<?xml version='1.0'?><methodCall><methodName>getPid</methodName><params></params></methodCall>"
     answers: list[bytes] = []
-    for port in map(int, listening.stdout.split()):
-        for request in (_request(body), _request(body).replace(b"\r\n", b"\r\nOrigin: http://page.example\r\n", 1)):
+    for port in listening_ports(server.pid):
+        for sent in (request(body), request(body).replace(b"\r\n", b"\r\nOrigin: http://page.example\r\n", 1)):
             with socket.create_connection(("127.0.0.1", port)) as peer:
-                peer.sendall(request)
+                peer.sendall(sent)
                 peer.settimeout(2)
                 with suppress(OSError):
                     answers.append(peer.recv(4096))
