@@ -99,6 +99,7 @@ void Bond::onTimer() {
 void Bond::change(std::unique_lock<std::mutex>& lock, State state) {
   if (state_ == state || state_ == kBroken) return;
   state_ = state;
+  has_formed_ |= state == kFormed;
   const Callback callback = state == kBroken ? on_broken_ : state == kFormed ? on_formed_ : Callback();
   changed_.notify_all();
   lock.unlock();
@@ -129,7 +130,7 @@ bool Bond::waitFor(ros::WallDuration timeout, const boost::function<bool()>& con
 bool Bond::waitUntilFormed(ros::WallDuration timeout) {
   waitFor(timeout, [this] { return state_ != kWaiting; });
   const std::lock_guard<std::mutex> lock(mutex_);
-  return state_ == kFormed;
+  return has_formed_;
 }
 
 bool Bond::waitUntilBroken(ros::WallDuration timeout) {

@@ -35,7 +35,7 @@ class Bond {
   void setBrokenCallback(Callback on_broken);
 
   void start();
-  /** Wait until both ends live; false at the timeout, or if the bond broke. Negative times are none. */
+  /** Wait until both ends live; false at the timeout, or if the bond broke before. Negative times are none. */
   bool waitUntilFormed(ros::Duration timeout) { return waitUntilFormed(ros::WallDuration(timeout.toSec())); }
   bool waitUntilFormed(ros::WallDuration timeout = ros::WallDuration(-1));
   bool waitUntilBroken(ros::Duration timeout) { return waitUntilBroken(ros::WallDuration(timeout.toSec())); }
@@ -61,7 +61,7 @@ class Bond {
   double connect_timeout_, disconnect_timeout_, heartbeat_timeout_, heartbeat_period_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  bool is_started_ = false;
+  bool is_started_ = false, has_formed_ = false;
   State state_ = kWaiting;
   /** When the other end is given up. */
   ros::SteadyTime deadline_, next_heartbeat_;

@@ -1,5 +1,6 @@
 // Checks of small libraries; then a node that passes images on, and publishes diagnostics and a cloud.
 #include <angles/angles.h>
+#include <bondcpp/bond.h>
 #include <camera_calibration_parsers/parse_yml.h>
 #include <camera_info_manager/camera_info_manager.h>
 #include <control_toolbox/pid.h>
@@ -259,6 +260,16 @@ void checkCalibration() {
   CHECK(!camera_calibration_parsers::readCalibrationYml(empty, name, info));
 }
 
+void checkBonds() {
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  bond::Bond one("/bonds", "both"), other("/bonds", "both");
+  one.setFormedCallback([&one] { one.breakBond(); });
+  one.start();
+  other.start();
+  CHECK(one.waitUntilFormed(ros::Duration(20.0)) && other.waitUntilBroken(ros::Duration(20.0)));
+}
+
 int main(int argc, char** argv) {
   ros::init(argc, argv, "tools");
   ros::NodeHandle node;
@@ -269,6 +280,7 @@ int main(int argc, char** argv) {
   checkClouds();
   checkOldClouds();
   checkCalibration();
+  checkBonds();
   std::cout << made << " checks, " << failed << " failed" << std::endl;
   if (failed) return 1;
   Node tools;
