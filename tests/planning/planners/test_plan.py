@@ -17,6 +17,7 @@ from trundle.planning.kinematics import Kinematics
 from trundle.planning.planners import (
     Constraints,
     ErrorCode,
+    JointConstraint,
     MotionPlan,
     MotionPlanRequest,
     OrientationConstraint,
@@ -25,6 +26,7 @@ from trundle.planning.planners import (
     PositionConstraint,
     StartStateFixes,
     VisibilityConstraint,
+    is_path_valid,
     is_visible,
     joint_goal,
     ompl_settings,
@@ -136,6 +138,18 @@ def test_a_pose_is_reached_within_its_tolerances() -> None:
     assert np.abs(reached.rpy).max() < 2e-3
     assert result.waypoints[0] == pytest.approx(ready())
     _assert_valid(scene, result.waypoints)
+
+
+def test_a_path_is_checked_between_its_points_too() -> None:
+    scene = _table_and_wall()
+    sides = np.array(_sides(scene))[:, scene.model.indices(scene.model.group("arm").variables)]
+
+    assert not is_path_valid(scene, "arm", sides)
+    assert is_path_valid(scene, "arm", sides[[0, 0]])
+    assert is_path_valid(PlanningScene(scene.model), "arm", sides)
+    bound = JointConstraint(variable="joint_1", position=0.7, tolerance_above=0.1, tolerance_below=0.1)
+    held = Constraints(joints=(bound,))
+    assert not is_path_valid(PlanningScene(scene.model), "arm", sides, path_constraints=held)
 
 
 @pytest.mark.parametrize("name", ["scara", "four_axis"])

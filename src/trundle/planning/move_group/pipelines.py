@@ -15,11 +15,13 @@ from trundle.base.diagnostics import Diagnostics, TrundleError, UsageError
 from trundle.planning.kinematics import InverseKinematics, Kinematics, KinematicsSettings, read_kinematics
 from trundle.planning.planners import (
     CartesianLimits,
+    Constraints,
     ErrorCode,
     MotionPlan,
     MotionPlanRequest,
     PlanningFailure,
     WorkspaceBounds,
+    is_path_valid,
     joint_goal,
     plan,
 )
@@ -44,6 +46,7 @@ _DEFAULT_TIME_S = 5.0
 _MAX_TIME_S = 600.0
 _MAX_STEP = 0.05
 """Greatest step of a joint between points of a trajectory [rad] or [m]."""
+_UNCONSTRAINED = Constraints()
 
 
 class Pipelines:
@@ -263,19 +266,29 @@ class Pipelines:
             )
         shares = request.velocity_scaling, request.acceleration_scaling
         path = self.timed(found.group, found.waypoints, *shares, timing)
-        if timing == "time_optimal" and not self._is_free(scene, path, found.waypoints[0], found.group):
+        constraints = request.path_constraints
+        if timing == "time_optimal" and not self._is_valid(scene, path, found.waypoints[0], found.group, constraints):
             path = self.timed(found.group, found.waypoints, *shares)
         return path
 
-    def _is_free(self, scene: PlanningScene, path: JointPath, start: np.ndarray, group: str) -> bool:
-        """True if no point of a path is in collision."""
-        indices = self.model.indices(path.joints)
-        for positions in path.positions:
-            state = start.copy()
-            state[indices] = positions
-            if not scene.is_free(self.model.with_mimics(state), group=group or None):
-                return False
-        return True
+    def _is_valid(
+        self,
+        scene: PlanningScene,
+        path: JointPath,
+        start: np.ndarray,
+        group: str,
+        constraints: Constraints = _UNCONSTRAINED,
+    ) -> bool:
+        """True if nothing touches along a path, also between its points, and constraints hold."""
+        states = np.tile(start, (len(path.times_s), 1))
+        states[:, self.model.indices(path.joints)] = path.positions
+        states = self.model.with_mimics(states)
+        if group in self.model.groups:
+            variables = self.model.groups[group].variables
+            if set(path.joints) <= set(variables):
+                values = states[:, self.model.indices(variables)]
+                return is_path_valid(scene, group, values, reference=start, path_constraints=constraints)
+        return all(scene.is_free(state) for state in states)  # a hand that is no group
 
     def timed(
         self,
@@ -360,7 +373,7 @@ class Pipelines:
             contents = contents.copy()
             contents.allowed = allowed
         scene = self.scene(contents, start)
-        return await asyncio.to_thread(self._is_free, scene, path, start, group)
+        return await asyncio.to_thread(self._is_valid, scene, path, start, group)
 
 
 def _dense(positions: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -17,6 +17,7 @@ from .constraints import (
 )
 from .error_codes import ErrorCode as ErrorCode, PlanningFailure as PlanningFailure, RequestError as RequestError
 from .motion_plan import plan as plan
+from .path_validity import is_path_valid as is_path_valid
 from .pilz.sequence import blended as blended, joined as joined
 from .requests import (
     CartesianLimits as CartesianLimits,

@@ -17,7 +17,7 @@ from .requests import PlannerSettings, Positions, WorkspaceBounds
 NO_CONSTRAINTS = Constraints()
 DEFAULT_SETTINGS = PlannerSettings()
 DEFAULT_WORKSPACE = WorkspaceBounds()
-_SWEEP = 0.002
+_SWEEP = 0.0002
 """Motion of a link's points up to which nothing between two states of a path is looked at [m]."""
 _UNBOUNDED = 1e3
 """Limit of a prismatic joint without one [m]."""
