@@ -21,8 +21,8 @@ def plan(scene: PlanningScene, request: MotionPlanRequest) -> MotionPlan | Plann
     """Plan a motion of a group without collision from its start to one of its goals.
 
     The scene is copied first, so that others may check it meanwhile. A path is checked between its waypoints, too: by
-    the distance to what is near, so that no link enters anything by more than 0.1 mm. The same request and scene have the
-    same answer, unless the time was too short.
+    the distance to what is near, so that no link enters anything by more than 0.1 mm. The same request and scene have
+    the same answer, unless the time was too short.
     """
     try:
         if request.planner.upper() in SEQUENTIAL:
