@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include <boost/thread.hpp>
 #include <gazebo/gazebo.hh>
 #include <gazebo/msgs/msgs.hh>
 #include <gazebo/physics/physics.hh>
@@ -43,6 +44,11 @@ public:
     this->subscriber = this->node->Subscribe("~/said", &Checks::OnText, this);
     this->publisher = this->node->Advertise<msgs::GzString>("/gazebo/checks/said");
     CHECK(this->publisher->HasConnections());
+    event::EventT<void()> loaded;
+    int calls = 0;
+    const event::ConnectionPtr counts = loaded.Connect([&calls] { ++calls; });
+    boost::thread([&loaded] { loaded(); }).join();
+    CHECK(calls == 1);
   }
 
 private:

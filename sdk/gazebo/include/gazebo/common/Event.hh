@@ -90,7 +90,8 @@ class EventT<void(Args...)> : public Event {
   }
   unsigned int ConnectionCount() const { return static_cast<unsigned int>(slots_.size()); }
 
-  // Call the functions that plugins of a world connected; one that throws is disconnected.
+  // Call the functions that plugins of a world connected, or all if it is null, as in a thread of a plugin's own; one
+  // that throws is disconnected.
   void SignalIn(const void* world, Args... args) { Call(world, nullptr, args...); }
   // The same for one of the plugins alone.
   void SignalTo(const internal::Owner& owner, Args... args) { Call(owner.world, owner.plugin, args...); }
@@ -110,7 +111,7 @@ class EventT<void(Args...)> : public Event {
     for (std::size_t i = 0;; ++i) {
       const std::shared_ptr<Slot> slot = At(i);
       if (!slot) return;
-      if (!slot->is_on || (slot->owner.world && slot->owner.world != world)) continue;
+      if (!slot->is_on || (world && slot->owner.world && slot->owner.world != world)) continue;
       if (plugin && slot->owner.plugin != plugin) continue;
       const internal::Running running(slot->owner);
       try {
