@@ -49,6 +49,14 @@ public:
     const event::ConnectionPtr counts = loaded.Connect([&calls] { ++calls; });
     boost::thread([&loaded] { loaded(); }).join();
     CHECK(calls == 1);
+    event::ConnectionPtr outlives;
+    {
+      event::EventT<void()> ended;
+      outlives = ended.Connect([&calls] { ++calls; });
+      ended.Disconnect(outlives);
+      ended();
+    }
+    CHECK(calls == 1 && outlives);
   }
 
 private:

@@ -36,6 +36,8 @@ class Connection {
   int Id() const { return id_; }
 
  private:
+  template <typename T>
+  friend class EventT;
   Connection(const Connection&);
   Connection& operator=(const Connection&);
 
@@ -78,8 +80,11 @@ class EventT<void(Args...)> : public Event {
     slots_.push_back(std::make_shared<Slot>(Slot{++last_id_, function, internal::CurrentOwner(), true}));
     return std::make_shared<Connection>(this, last_id_);
   }
+  // The connection may outlive the event from then on.
   void Disconnect(ConnectionPtr connection) {
-    if (connection) Disconnect(connection->GetId());
+    if (!connection) return;
+    Disconnect(connection->GetId());
+    connection->event_ = nullptr;
   }
   virtual void Disconnect(int id) {
     const std::lock_guard<std::mutex> lock(mutex_);
