@@ -16,6 +16,7 @@ class Echo : public nodelet::Nodelet {
     subscriber_ = getMTNodeHandle().subscribe("in", 10, &Echo::onMessage, this);
     NODELET_INFO("%s is ready", getName().c_str());
     NODELET_DEBUG_STREAM("prefix " << prefix_);
+    NODELET_WARN_STREAM_COND_NAMED(prefix_.empty(), "start", "no " << "prefix");
   }
   void onMessage(const std_msgs::StringConstPtr& message) {
     std_msgs::String answer;
