@@ -193,35 +193,6 @@ bool XmlRpcValue::hasMember(const std::string& name) const {
 const std::string& XmlRpcValue::getDoubleFormat() { return doubleFormat(); }
 void XmlRpcValue::setDoubleFormat(const char* format) { doubleFormat() = format; }
 
-std::ostream& XmlRpcValue::write(std::ostream& out) const {
-  switch (_type) {
-    case TypeBoolean: return out << _value.asBool;
-    case TypeInt: return out << _value.asInt;
-    case TypeDouble: return out << _value.asDouble;
-    case TypeString: return out << *_value.asString;
-    case TypeDateTime: {
-      char text[32];
-      std::strftime(text, sizeof(text), "%Y%m%dT%H:%M:%S", _value.asTime);
-      return out << text;
-    }
-    case TypeBase64: return out.write(_value.asBinary->data(), static_cast<std::streamsize>(_value.asBinary->size()));
-    case TypeArray: {
-      out << '{';
-      for (size_t i = 0; i < _value.asArray->size(); ++i) (*_value.asArray)[i].write(i > 0 ? out << ',' : out);
-      return out << '}';
-    }
-    case TypeStruct: {
-      out << '[';
-      for (const_iterator i = begin(); i != end(); ++i) {
-        if (i != begin()) out << ',';
-        i->second.write(out << i->first << ':');
-      }
-      return out << ']';
-    }
-    default: return out;
-  }
-}
-
 std::ostream& operator<<(std::ostream& out, const XmlRpcValue& value) { return value.write(out); }
 
 }  // namespace XmlRpc

@@ -14,6 +14,7 @@ namespace XmlRpc {
 namespace {
 
 constexpr int kMaxDepth = 100;
+constexpr size_t kLineBytes = 54;  // of base64, in 72 characters
 constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 std::string base64(const std::vector<char>& bytes) {
@@ -23,6 +24,7 @@ std::string base64(const std::vector<char>& bytes) {
     for (size_t k = 0; k < 3; ++k)
       block = block << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
     for (size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : kDigits[block >> (18 - 6 * k) & 0x3F];
+    if ((i + 3) % kLineBytes == 0 || i + 3 >= bytes.size()) text += '\n';
   }
   return text;
 }
@@ -45,7 +47,7 @@ std::vector<char> fromBase64(const std::string& text) {
 
 std::string number(double value) {
   if (!XmlRpcValue::getDoubleFormat().empty()) {
-    char text[400];
+    char text[128];  // cut off there, as by the original
     std::snprintf(text, sizeof(text), XmlRpcValue::getDoubleFormat().c_str(), value);
     return text;
   }
@@ -54,6 +56,13 @@ std::string number(double value) {
   text.precision(17);
   text << value;
   return text.str();
+}
+
+std::string date(const struct tm& t) {
+  char text[100];
+  std::snprintf(text, sizeof(text), "%4d%02d%02dT%02d:%02d:%02d", t.tm_year, t.tm_mon, t.tm_mday, t.tm_hour, t.tm_min,
+                t.tm_sec);
+  return text;
 }
 
 }  // namespace
@@ -209,6 +218,7 @@ class XmlReader {
 
 bool XmlRpcValue::fromXml(const std::string& xml, int* offset) {
   clear();
+  if (!offset) return false;
   XmlReader reader(xml, static_cast<size_t>(std::max(0, *offset)));
   if (static_cast<size_t>(*offset) > xml.size() || !reader.value(*this, 0)) {
     clear();
@@ -224,13 +234,7 @@ std::string XmlRpcValue::toXml() const {
     case TypeInt: return "<value><i4>" + std::to_string(_value.asInt) + "</i4></value>";
     case TypeDouble: return "<value><double>" + number(_value.asDouble) + "</double></value>";
     case TypeString: return "<value>" + XmlRpcUtil::xmlEncode(*_value.asString) + "</value>";
-    case TypeDateTime: {
-      const struct tm& t = *_value.asTime;
-      char text[100];
-      std::snprintf(text, sizeof(text), "%4d%02d%02dT%02d:%02d:%02d", t.tm_year, t.tm_mon, t.tm_mday, t.tm_hour,
-                    t.tm_min, t.tm_sec);
-      return std::string("<value><dateTime.iso8601>") + text + "</dateTime.iso8601></value>";
-    }
+    case TypeDateTime: return "<value><dateTime.iso8601>" + date(*_value.asTime) + "</dateTime.iso8601></value>";
     case TypeBase64: return "<value><base64>" + base64(*_value.asBinary) + "</base64></value>";
     case TypeArray: {
       std::string xml = "<value><array><data>";
@@ -244,6 +248,31 @@ std::string XmlRpcValue::toXml() const {
       return xml + "</struct></value>";
     }
     default: return "<value></value>";
+  }
+}
+
+std::ostream& XmlRpcValue::write(std::ostream& out) const {
+  switch (_type) {
+    case TypeBoolean: return out << _value.asBool;
+    case TypeInt: return out << _value.asInt;
+    case TypeDouble: return getDoubleFormat().empty() ? out << _value.asDouble : out << number(_value.asDouble);
+    case TypeString: return out << *_value.asString;
+    case TypeDateTime: return out << date(*_value.asTime);
+    case TypeBase64: return out << base64(*_value.asBinary);
+    case TypeArray: {
+      out << '{';
+      for (size_t i = 0; i < _value.asArray->size(); ++i) (*_value.asArray)[i].write(i > 0 ? out << ',' : out);
+      return out << '}';
+    }
+    case TypeStruct: {
+      out << '[';
+      for (const_iterator i = begin(); i != end(); ++i) {
+        if (i != begin()) out << ',';
+        i->second.write(out << i->first << ':');
+      }
+      return out << ']';
+    }
+    default: return out;
   }
 }
 

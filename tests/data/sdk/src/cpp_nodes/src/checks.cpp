@@ -237,6 +237,10 @@ void checkParameters(ros::NodeHandle& n) {
   CHECK(static_cast<int>(value["p"]) == 2 && value.size() == 2);
   int at = 0;
   CHECK(XmlRpc::XmlRpcUtil::nextTagData("<int>", " <int>4</int>", &at) == "4" && at == 13);
+  char bytes[] = {1, 2};
+  std::stringstream text64;
+  text64 << XmlRpc::XmlRpcValue(bytes, 2);
+  CHECK(text64.str() == "AQI=\n" && !value.fromXml("<value>4</value>", nullptr) && !value.valid());
   CHECK(XmlRpc::XmlRpcUtil::xmlDecode(XmlRpc::XmlRpcUtil::xmlEncode("<&\"'>")) == "<&\"'>");
   std::string text;
   CHECK(!n.getParam("gains/p", text) && !n.getParam("nothing", text) && !n.hasParam("nothing"));
