@@ -31,3 +31,13 @@ def test_an_invalid_file_is_named_with_its_line(tmp_path: Path) -> None:
     assert bad == f"{tmp_path}/Bad.cfg:3: error: ZeroDivisionError: division by zero"
     assert none == f"{tmp_path}/CMakeLists.txt: error: {tmp_path}/None.cfg is missing"
     assert not (tmp_path / "include").exists()
+
+
+def test_the_namespace_is_the_package_that_the_file_names(tmp_path: Path) -> None:
+    (tmp_path / "CMakeLists.txt").write_text("generate_dynamic_reconfigure_options(Drive.cfg)\n")
+    (tmp_path / "Drive.cfg").write_text(
+        "from dynamic_reconfigure.parameter_generator_catkin import *\n"
+        'gen = ParameterGenerator()\ngen.generate("drive_settings", "drive", "Drive")\n'
+    )
+    assert write_config_headers("drive", tmp_path, tmp_path / "include", with_finder(os.environ)) == []
+    assert "namespace drive_settings {" in (tmp_path / "include/drive/DriveConfig.h").read_text()

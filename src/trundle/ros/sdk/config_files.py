@@ -48,7 +48,7 @@ def write_config_headers(package: str, folder: Path, include: Path, environment:
             continue
         for description in json.loads(done.stdout):
             header = include / package / f"{description['name']}Config.h"
-            text = config_header(package, description)
+            text = config_header(description["pkgname"], description)  # whatever the package is called
             if not header.is_file() or header.read_text(encoding="utf-8") != text:
                 header.parent.mkdir(parents=True, exist_ok=True)
                 write_atomically(header, text)

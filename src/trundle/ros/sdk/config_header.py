@@ -14,7 +14,7 @@ def config_header(package: str, description: Mapping[str, Any]) -> str:
     """Return the header of a configuration.
 
     Args:
-        package: name of the package, which is the class's namespace.
+        package: name that the .cfg file gives for its package, which is the class's namespace.
         description: `name`, `group` (its parameters and groups, as in config_description) and `constants`.
     """
     cls = f"{description['name']}Config"

@@ -41,13 +41,18 @@ def config_namespace(package: str, file: Path) -> dict[str, Any]:
 
 
 def described(package: str, file: Path) -> list[dict[str, Any]]:
-    """All configurations that a .cfg file generates: name, group, constants.
+    """All configurations that a .cfg file generates: pkgname that it gives, name, group, constants.
 
     Raises:
         ImportError: the file fails, or generates nothing.
     """
     return [
-        {"name": generator.name, "group": generator.group.to_dict(), "constants": generator.constants}
+        {
+            "pkgname": generator.pkgname,
+            "name": generator.name,
+            "group": generator.group.to_dict(),
+            "constants": generator.constants,
+        }
         for generator in _run(package, file)
     ]
 
