@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "message_filters/null_types.h"
 #include "message_filters/signal.h"
 
 namespace message_filters {

@@ -34,6 +34,44 @@ class TimeSynchronizer : public Synchronizer<sync_policies::ExactTime<M...> > {
   template <class F0, class F1, class F2, class F3, class F4, class F5, class F6, class F7, class F8>
   TimeSynchronizer(F0& f0, F1& f1, F2& f2, F3& f3, F4& f4, F5& f5, F6& f6, F7& f7, F8& f8, uint32_t queue_size)
       : Base(Policy(queue_size), f0, f1, f2, f3, f4, f5, f6, f7, f8) {}
+
+  // Messages of each input, by hand.
+  template <class P>
+  void add0(const P& message) {
+    this->template add<0>(message);
+  }
+  template <class P>
+  void add1(const P& message) {
+    this->template add<1>(message);
+  }
+  template <class P>
+  void add2(const P& message) {
+    this->template add<2>(message);
+  }
+  template <class P>
+  void add3(const P& message) {
+    this->template add<3>(message);
+  }
+  template <class P>
+  void add4(const P& message) {
+    this->template add<4>(message);
+  }
+  template <class P>
+  void add5(const P& message) {
+    this->template add<5>(message);
+  }
+  template <class P>
+  void add6(const P& message) {
+    this->template add<6>(message);
+  }
+  template <class P>
+  void add7(const P& message) {
+    this->template add<7>(message);
+  }
+  template <class P>
+  void add8(const P& message) {
+    this->template add<8>(message);
+  }
 };
 
 }  // namespace message_filters

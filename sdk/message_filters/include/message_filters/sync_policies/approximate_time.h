@@ -27,7 +27,7 @@ class ApproximateTime : public PolicyBase<M...> {
   static const size_t kCount = Base::kCount;
 
   /** `queue_size`: messages of an input that wait; the oldest is dropped. */
-  explicit ApproximateTime(uint32_t queue_size) : queue_size_(queue_size) {}
+  ApproximateTime(uint32_t queue_size) : queue_size_(queue_size) {}
   ApproximateTime(const ApproximateTime& o)
       : Base(),
         queue_size_(o.queue_size_),

@@ -19,7 +19,7 @@ class ExactTime : public PolicyBase<M...> {
   typedef Events Tuple;
 
   /** `queue_size`: stamps that wait for their other messages; the oldest is dropped. 0: no limit. */
-  explicit ExactTime(uint32_t queue_size) : queue_size_(queue_size) {}
+  ExactTime(uint32_t queue_size) : queue_size_(queue_size) {}
   ExactTime(const ExactTime& other) : Base(), queue_size_(other.queue_size_) {}
 
   template <int i>

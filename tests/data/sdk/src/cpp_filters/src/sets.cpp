@@ -148,6 +148,21 @@ void checkApproximate() {
   CHECK(count == 2);
 }
 
+void checkByHand() {
+  message_filters::NullFilter<Imu> imus;
+  message_filters::NullFilter<Range> ranges;
+  message_filters::TimeSynchronizer<Imu, Range> exact(imus, ranges, 2);
+  exact.registerCallback(&onPair);
+  exact.add0(at<Imu>(1.0));
+  exact.add1(at<Range>(1.0));
+  CHECK(take() == "1+1 ");
+  message_filters::Synchronizer<message_filters::sync_policies::ExactTime<Imu, Range> > sized(2);
+  sized.registerCallback(&onPair);
+  sized.add<0>(at<Imu>(2.0));
+  sized.add<1>(at<Range>(2.0));
+  CHECK(take() == "2+2 ");
+}
+
 void checkOthers() {
   PassThrough<Imu> source;
   Cache<Imu> cache(source, 4);
@@ -193,6 +208,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "sets");
   ros::NodeHandle node;
   checkExact();
+  checkByHand();
   checkApproximate();
   checkOthers();
   std::cout << made << " checks, " << failed << " failed" << std::endl;
