@@ -23,6 +23,11 @@ class SimpleFilter {
   Connection registerCallback(const C& callback) {
     return signal_.addCallback(callback);
   }
+  /** With a parameter of the type that the caller names: what boost::bind() returns tells none. */
+  template <typename P>
+  Connection registerCallback(const boost::function<void(P)>& callback) {
+    return signal_.addCallback(callback);
+  }
   template <typename T, typename P>
   Connection registerCallback(void (T::*callback)(P), T* object) {
     return signal_.addCallback(callback, object);

@@ -161,6 +161,10 @@ void checkByHand() {
   sized.add<0>(at<Imu>(2.0));
   sized.add<1>(at<Range>(2.0));
   CHECK(take() == "2+2 ");
+  PassThrough<Imu> single;
+  single.registerCallback<const Imu&>([](const Imu& imu) { seen << imu.header.stamp.toSec() << " "; });
+  single.add(at<Imu>(3.0));
+  CHECK(take() == "3 ");
 }
 
 void checkOthers() {
