@@ -119,7 +119,10 @@ class Judge:
         if len(times) > 1 and not np.all(np.diff(times) > 0.0):
             faults.append("times do not increase")
         for column, name in enumerate(names):
-            lower, upper = self.robot.get_joint(name).bounds() if name in self.joints else (-np.inf, np.inf)
+            model = self._scene.model
+            turns = not model.is_bounded[model.variable_index(name)]
+            unlimited = turns or name not in self.joints
+            lower, upper = (-np.inf, np.inf) if unlimited else self.robot.get_joint(name).bounds()
             span = max(1e-6, lower - states[0, column], states[0, column] - upper)  # gravity pulled it out
             if states[:, column].min() < lower - span or states[:, column].max() > upper + span:
                 faults.append(f"{name} leaves {lower:.3f} … {upper:.3f}")
