@@ -66,8 +66,7 @@ def test_later_clients_get_the_state_of_a_paused_world(page: PageServer) -> None
     for _ in range(2):
         with ProtocolClient(page.url) as client:
             client.subscribe("trundle/poses")
-            client.until(lambda: client.payloads("trundle/poses"))
-            assert _poses(client.payloads("trundle/poses")[-1])[2].tolist() == [0, 1]
+            client.until(lambda: [_poses(p)[2].tolist() for p in client.payloads("trundle/poses")[-1:]] == [[0, 1]])
 
 
 def test_poses_wait_for_the_manifest_of_their_generation(page: PageServer) -> None:
