@@ -25,7 +25,8 @@ WORLD = """
         <mu2>0</mu2></ode></friction></surface></collision></link>
     <plugin name="drive" filename="libgazebo_ros_planar_move.so"><robotBaseFrame>base_link</robotBaseFrame></plugin>
     <plugin name="gps" filename="libhector_gazebo_ros_gps.so"><topicName>gps/fix</topicName><frameId>base_link</frameId>
-      <updateRate>5</updateRate><gaussianNoise>0.01 0.01 0.01</gaussianNoise></plugin>
+      <updateRate>5</updateRate><useWorldSphericalCoordinates>true</useWorldSphericalCoordinates>
+      <gaussianNoise>0.01 0.01 0.01</gaussianNoise></plugin>
     <plugin name="imu" filename="libhector_gazebo_ros_imu.so"><topicName>imu/data</topicName><updateRate>30</updateRate>
       <bodyName>base_link</bodyName><frameId>base_link</frameId></plugin>
     <plugin name="truth" filename="libgazebo_ros_p3d.so"><bodyName>base_link</bodyName><topicName>truth</topicName>

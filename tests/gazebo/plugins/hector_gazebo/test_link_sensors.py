@@ -76,8 +76,7 @@ def test_hectors_imu_has_the_errors_of_its_parameters(gazebo: Gazebo) -> None:
 
 def test_hectors_gps_publishes_position_and_velocity(gazebo: Gazebo) -> None:
     """The world's x axis points south here; a degree of latitude is 111.23 km at 49.9° on WGS84."""
-    parameters = """<topicName>fix</topicName><referenceLatitude>49.9</referenceLatitude>
-<referenceLongitude>8.9</referenceLongitude><referenceHeading>180</referenceHeading><updateRate>50</updateRate>
+    parameters = """<topicName>fix</topicName><referenceHeading>180</referenceHeading><updateRate>50</updateRate>
 <frameId>base_link</frameId><gaussianNoise>0 0 0</gaussianNoise>"""
     assert gazebo.spawn(_model_sdf("hector_gazebo_ros_gps", parameters, pose="100 0 2 0 0 0"), "box").success
     fixes = gazebo.subscribe("/fix", "sensor_msgs/NavSatFix")
@@ -95,7 +94,7 @@ def test_hectors_gps_publishes_position_and_velocity(gazebo: Gazebo) -> None:
 @pytest.mark.parametrize("with_field", [False, True])
 def test_hectors_magnetometer_measures_north_and_down(gazebo: Gazebo, with_field: bool) -> None:
     """The world's x axis points north, and the box, turned by 90°, faces west: north is on its right."""
-    parameters = f"""<referenceHeading>0</referenceHeading><inclination>30</inclination><magnitude>2</magnitude>
+    parameters = f"""<inclination>30</inclination><magnitude>2</magnitude>
 <useMagneticFieldMsgs>{str(with_field).lower()}</useMagneticFieldMsgs><updateRate>50</updateRate>"""
     model = _model_sdf("hector_gazebo_ros_magnetic", parameters, pose=f"0 0 2 0 0 {math.pi / 2}")
     assert gazebo.spawn(model, "box").success

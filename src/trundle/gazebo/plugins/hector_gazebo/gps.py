@@ -15,18 +15,23 @@ _DIAGONAL_KNOWN = 2
 """sensor_msgs/NavSatFix.COVARIANCE_TYPE_DIAGONAL_KNOWN"""
 
 
+_DARMSTADT = SphericalCoordinates(latitude_deg=49.9, longitude_deg=8.9, heading_deg=90.0)
+"""Reference of the original, with the world's x axis to the north."""
+
+
 class Gps(LinkSensor):
     """Publishes sensor_msgs/NavSatFix and geometry_msgs/Vector3Stamped (north, west, up).
 
     Parameters: <bodyName> (the first link), <frameId> /world, <topicName> fix, <velocityTopicName> fix_velocity,
-    <updateRate> 4, <referenceLatitude>, <referenceLongitude>, <referenceAltitude> and <referenceHeading> (of the
-    world's x axis, clockwise from north [deg]) by the world's spherical coordinates, <status> 0, <service> 1; errors
-    by <drift>, <gaussianNoise>, … [m] and <velocityDrift>, <velocityGaussianNoise>, … [m/s].
+    <updateRate> 4, <referenceLatitude> 49.9, <referenceLongitude> 8.9, <referenceAltitude> 0 and <referenceHeading> 0
+    (of the world's x axis, clockwise from north [deg]), with <useWorldSphericalCoordinates> the world's; <status> 0,
+    <service> 1; errors by <drift>, <gaussianNoise>, … [m] and <velocityDrift>, <velocityGaussianNoise>, … [m/s].
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
         super().__init__(sim, model, node, parameters, frame="/world", rate_hz=4.0)
-        world = sim.world.spherical_coordinates
+        is_worlds = parameters.flag("useWorldSphericalCoordinates", default=False)
+        world = sim.world.spherical_coordinates if is_worlds else _DARMSTADT
 
         def reference(name: str, default: float) -> float:
             return parameters.number(f"reference{name}", default)

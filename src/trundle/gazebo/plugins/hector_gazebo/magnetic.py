@@ -15,8 +15,8 @@ class Magnetic(LinkSensor):
     """Publishes geometry_msgs/Vector3Stamped, or sensor_msgs/MagneticField with <useMagneticFieldMsgs>.
 
     Parameters: <bodyName> (the first link), <frameId> (the body), <topicName> magnetic, <updateRate> 0 (every step),
-    <magnitude> 1, <declination> 0, <inclination> 60 and <referenceHeading> [deg] (of the world's x axis, clockwise
-    from north; by the world's spherical coordinates); errors by <drift>, <gaussianNoise>, …
+    <magnitude> 1, <declination> 0, <inclination> 60 and <referenceHeading> 0 [deg] (of the world's x axis, clockwise
+    from north; with <useWorldSphericalCoordinates> the world's); errors by <drift>, <gaussianNoise>, …
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
@@ -26,7 +26,8 @@ class Magnetic(LinkSensor):
             return math.radians(parameters.number(name, default_deg))
 
         strength = parameters.number("magnitude", 1.0)
-        heading = angle("referenceHeading", 90.0 - sim.world.spherical_coordinates.heading_deg)
+        is_worlds = parameters.flag("useWorldSphericalCoordinates", default=False)
+        heading = angle("referenceHeading", 90.0 - sim.world.spherical_coordinates.heading_deg if is_worlds else 0.0)
         azimuth, dip = heading - angle("declination", 0.0), angle("inclination", 60.0)
         horizontal = strength * math.cos(dip)
         self._field = (horizontal * math.cos(azimuth), horizontal * math.sin(azimuth), -strength * math.sin(dip))
