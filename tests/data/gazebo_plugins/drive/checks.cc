@@ -57,6 +57,13 @@ public:
       ended();
     }
     CHECK(calls == 1 && outlives);
+    {
+      event::EventT<void()> ended;
+      outlives = ended.Connect([&calls] { ++calls; });
+      ended.~EventT<void()>();  // as hector_gazebo_plugins disconnects
+      outlives.reset();
+    }
+    CHECK(calls == 1);
   }
 
 private:

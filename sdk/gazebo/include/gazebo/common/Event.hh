@@ -18,7 +18,7 @@ namespace event {
 class Event {
  public:
   virtual ~Event() {}
-  virtual void Disconnect(int id) = 0;
+  virtual void Disconnect(int) {}
   bool GetSignaled() const { return signaled_; }
 
  protected:
@@ -72,8 +72,22 @@ class EventT;
 
 template <typename... Args>
 class EventT<void(Args...)> : public Event {
+  struct Slot {
+    int id;
+    std::function<void(Args...)> function;
+    internal::Owner owner;
+    bool is_on;
+  };
+
  public:
   typedef std::function<void(Args...)> CallbackT;
+
+  // Plugins of hector_gazebo_plugins call it to disconnect all, and so twice: nothing is left for the second time, and
+  // the compiler may not leave that out.
+  virtual ~EventT() {
+    std::vector<std::shared_ptr<Slot>>().swap(slots_);
+    __asm__ __volatile__("" ::: "memory");
+  }
 
   ConnectionPtr Connect(const CallbackT& function) {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -104,12 +118,6 @@ class EventT<void(Args...)> : public Event {
   void operator()(Args... args) { Signal(args...); }
 
  private:
-  struct Slot {
-    int id;
-    CallbackT function;
-    internal::Owner owner;
-    bool is_on;
-  };
   // plugin: name of the plugin whose functions are called; null: those of all.
   void Call(const void* world, const char* plugin, Args... args) {
     signaled_ = true;
