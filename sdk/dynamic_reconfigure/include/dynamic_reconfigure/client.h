@@ -50,13 +50,17 @@ class Client {
     configuration.__toMessage__(call.request.config);
     if (!service_.call(call)) return false;
     configuration.__fromMessage__(call.response.config);
+    const Lock lock(mutex_);
+    config_.reset(new ConfigType(configuration));
+    arrival_.notify_all();
     return true;
   }
   bool setConfiguration(const ConfigType& configuration) {
     ConfigType copy = configuration;
     return setConfiguration(copy);
   }
-  /** The node's values. They arrive by callbacks: wait for them (`timeout` 0: for ever) beside a spinner. */
+  /** The node's values: those of the last setConfiguration, or, beside a spinner, what the node has told since. Wait
+   * for them; `timeout` 0: for ever. */
   bool getCurrentConfiguration(ConfigType& configuration, const ros::Duration& timeout = ros::Duration(0)) {
     return wait(config_, configuration, timeout);
   }

@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   config.depth = 7;
   if (!client.setConfiguration(config)) return 2;
   print("set", config);
+  if (!client.getCurrentConfiguration(bound) || bound.turns != 3 || bound.depth != -1) return 4;
   if (!client.getMinConfiguration(bound, ros::Duration(30))) return 3;
   print("min", bound);
   Client none("/no_such_node");
