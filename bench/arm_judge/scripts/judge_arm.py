@@ -119,9 +119,7 @@ class Judge:
         if len(times) > 1 and not np.all(np.diff(times) > 0.0):
             faults.append("times do not increase")
         for column, name in enumerate(names):
-            model = self._scene.model
-            turns = not model.is_bounded[model.variable_index(name)]
-            unlimited = turns or name not in self.joints
+            unlimited = self._turns(name) or name not in self.joints
             lower, upper = (-np.inf, np.inf) if unlimited else self.robot.get_joint(name).bounds()
             span = max(1e-6, lower - states[0, column], states[0, column] - upper)  # gravity pulled it out
             if states[:, column].min() < lower - span or states[:, column].max() > upper + span:
@@ -148,6 +146,15 @@ class Judge:
                 if touched:
                     return [f"touches {', '.join(touched)}"]
         return []
+
+    def _turns(self, name: str) -> bool:
+        """True for a joint that turns without end."""
+        model = self._scene.model
+        return not model.is_bounded[model.variable_index(name)] and model.joint(name).type == "continuous"
+
+    def _distance(self, name: str, a: float, b: float) -> float:
+        """Return how far two positions of a joint are apart [rad] or [m]."""
+        return abs(float(np.remainder(a - b + np.pi, 2.0 * np.pi) - np.pi)) if self._turns(name) else abs(a - b)
 
     def keep_state(self) -> None:
         """Take over the present positions of what the group does not move."""
@@ -186,7 +193,7 @@ class Judge:
         present = self.robot.get_current_state().joint_state
         at = dict(zip(present.name, present.position, strict=False))
         last = dict(zip(trajectory.joint_names, trajectory.points[-1].positions, strict=True))
-        errors: dict[str, float] = {name: abs(at[name] - value) for name, value in last.items()}
+        errors: dict[str, float] = {name: self._distance(name, at[name], value) for name, value in last.items()}
         worst = max(errors, key=lambda name: errors[name])
         if errors[worst] > self._tolerance:
             faults.append(f"{worst} ends {errors[worst]:.4f} off")
