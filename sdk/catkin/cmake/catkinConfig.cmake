@@ -19,6 +19,7 @@ if(NOT COMMAND catkin_package)
   include("${CMAKE_CURRENT_LIST_DIR}/ignored.cmake")
 endif()
 _trundle_name_folders()
+list(APPEND CMAKE_LIBRARY_PATH "${CATKIN_DEVEL_PREFIX}/lib")  # for find_library
 
 foreach(component IN LISTS catkin_FIND_COMPONENTS)
   _trundle_use_component(${component})
