@@ -37,6 +37,7 @@ def main(words: list[str]) -> int:
         packages = [checkouts / repository for repository in case.repositories]
         with tempfile.TemporaryDirectory() as folder:
             place = Path(os.environ.get("LOGS", folder))
+            place.mkdir(parents=True, exist_ok=True)
             found = run_goals(case, goals, place, packages=packages, name=plain, limit_s=_LIMIT_S)
         failed += found.executed < _SHARE * goals
         print(_row(name, found, goals), flush=True)
