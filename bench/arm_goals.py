@@ -42,6 +42,8 @@ class ArmCase(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     joint_states: str = ""
     """Topic of joint states; empty: joint_states."""
     env: dict[str, str] = field(default_factory=dict[str, str])
+    after: str = ""
+    """Node whose end, and six seconds more, the first goal waits for: it moves the arm; empty: none."""
     tags: str = ""
     """More elements of the launch file."""
     planning_time: float = 5.0
@@ -117,7 +119,7 @@ def _figures(judged: dict[str, Any]) -> GoalFigures:
 def _launch_text(case: ArmCase, goals: int, out: Path) -> str:
     floor = "" if case.floor is None else case.floor
     values = {"group": case.group, "goals": goals, "out": out, "tolerance": case.tolerance, "floor": floor}
-    values["planning_time"] = case.planning_time
+    values |= {"planning_time": case.planning_time, "after": case.after}
     params = "".join(f'<param name="{key}" value="{value}"/>' for key, value in values.items())
     params += f'<rosparam param="bounds">{json.dumps(case.bounds)}</rosparam>'
     judge = (

@@ -3,7 +3,7 @@
 
 Parameters: ~group, ~goals (number), ~out (file of the result), ~tolerance [rad] or [m] of where a motion ends,
 ~planning_time [s], ~floor: height of the ground below the robot, in its frame [m],
-~bounds: joint → bounds of its goals.
+~bounds: joint → bounds of its goals, ~after: node that moves the arm first.
 """
 
 import json
@@ -20,6 +20,7 @@ from moveit_msgs.srv import GetPositionFK, GetStateValidity  # pyright: ignore[r
 from sensor_msgs.msg import JointState  # pyright: ignore[reportMissingImports]
 
 import moveit_commander
+import rosnode
 import rospy
 from trundle.base.diagnostics import Diagnostics
 from trundle.planning.planning_scene import CollisionObject, PlacedShape, PlanningScene
@@ -33,6 +34,8 @@ _SLACK = 1e-3
 _FLOOR = (4.0, 4.0, 0.1)
 """Size of the ground [m]."""
 _TRIES = 500
+_MOTION_S = 6.0
+"""Duration of the motion that the node before has sent [s]."""
 _STEP = 0.02
 """Greatest motion of a joint between two states that are checked [rad] or [m]."""
 
@@ -217,6 +220,15 @@ class Judge:
         return forward(header, [link], state).pose_stamped[0]
 
 
+def wait_for_end(node: Any) -> None:
+    """Wait until a node has ended, and the arm has done what it said; nothing for ""."""
+    if not node:
+        return
+    while node in rosnode.get_node_names():
+        rospy.sleep(0.5)
+    rospy.sleep(_MOTION_S)
+
+
 def main() -> int:
     """Send the goals, and write the result."""
     moveit_commander.roscpp_initialize(sys.argv)
@@ -226,6 +238,7 @@ def main() -> int:
     error = ""
     try:
         judge = Judge()
+        wait_for_end(rospy.get_param("~after", ""))
         for number in range(int(rospy.get_param("~goals", 50))):
             rows.append(judge.run(number))
             rospy.loginfo("goal %d: %s", number, rows[-1])
