@@ -66,9 +66,9 @@ def test_a_nodelets_container_command_has_its_name_and_remappings(tmp_path: Path
 
 def test_a_nodes_container_command_has_its_name_and_remappings(tmp_path: Path) -> None:
     """Under another name it would not find the launch's private parameters."""
-    program = 'pkg="octomap_server" type="octomap_server_node"'
+    program = 'pkg="rtabmap_ros" type="rtabmap"'
     node = f'<node {program} name="planner" ns="r1" args="-v"><remap from="a" to="b"/></node>'
 
     (warning,) = check_launch(tmp_path, node).report.warnings
 
-    assert "rosrun octomap_server octomap_server_node -v a:=b __name:=planner __ns:=/r1" in warning
+    assert "rosrun rtabmap_ros rtabmap -v a:=b __name:=planner __ns:=/r1" in warning

@@ -154,12 +154,12 @@ def test_a_script_without_its_messages_is_replaced_by_the_stand_in(
 
 
 def test_an_unsupported_node_is_reported_with_a_container_command() -> None:
-    node = find_node("octomap_server", "octomap_server_node", lambda _: None, env={})
+    node = find_node("rtabmap_ros", "rtabmap", lambda _: None, env={})
     assert isinstance(node, MissingNode)
     assert node.reason.endswith(
         "the real one can run in a container with ROS_MASTER_URI set to this master: docker run --rm -it "
         "--network host -e ROS_MASTER_URI=http://localhost:11311 ros:noetic-ros-base bash -c "
-        "'apt-get update && apt-get install -y ros-noetic-octomap-server && rosrun octomap_server octomap_server_node'"
+        "'apt-get update && apt-get install -y ros-noetic-rtabmap-ros && rosrun rtabmap_ros rtabmap'"
     )
 
 

@@ -44,8 +44,9 @@ class Robot:
         steps = iter(np.arange(start, end, 0.1).tolist())
 
         def is_true() -> bool:
-            self.scan(next(steps, end))
-            return bool(condition())
+            x = next(steps, None)
+            self.scan(end if x is None else x)
+            return x is None and bool(condition())
 
         self.graph.until(is_true)
 
