@@ -178,14 +178,16 @@ void Subscription::handleMessage(const SerializedMessage& message, const boost::
   }
 }
 
-void Subscription::setPublishers(const std::vector<std::string>& uris) {
+void Subscription::setPublishers(const std::vector<std::string>& uris, bool is_update) {
   std::vector<std::shared_ptr<PublisherLink>> added;
   std::vector<std::shared_ptr<net::FrameConnection>> dropped;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (is_closed_) return;
+    const bool drops = is_update || !is_updated_;
+    is_updated_ |= is_update;
     for (auto entry = links_.begin(); entry != links_.end();) {
-      if (std::find(uris.begin(), uris.end(), entry->first) != uris.end()) {
+      if (!drops || std::find(uris.begin(), uris.end(), entry->first) != uris.end()) {
         ++entry;
         continue;
       }

@@ -129,7 +129,7 @@ std::shared_ptr<Subscription> subscribe(const SubscribeOptions& options) {
   if (own && subscription->accepts(own->md5sum)) subscription->connectLocally(own);
   XmlRpc::XmlRpcValue payload;
   if (callMaster("registerSubscriber", options.topic, &options.datatype, payload))
-    subscription->setPublishers(texts(payload));
+    subscription->setPublishers(texts(payload), false);
   return subscription;
 }
 
@@ -191,7 +191,7 @@ bool acceptSubscriber(const std::shared_ptr<net::FrameConnection>& connection, c
 
 void publisherUpdate(const std::string& topic, const std::vector<std::string>& uris) {
   if (const std::shared_ptr<Subscription> subscription = find(state().subscriptions, topic))
-    subscription->setPublishers(uris);
+    subscription->setPublishers(uris, true);
 }
 
 std::shared_ptr<Publication> publication(const std::string& topic) { return find(state().publications, topic); }

@@ -91,8 +91,8 @@ class Subscription : public std::enable_shared_from_this<Subscription> {
   void addCallback(const SubscribeOptions& options);
   /** Remove the callback of a helper; true if none is left. */
   bool removeCallback(const SubscriptionCallbackHelperPtr& helper);
-  /** Connect to new publishers, and drop those that are gone. */
-  void setPublishers(const std::vector<std::string>& uris);
+  /** Connect to new publishers, and drop those that are gone: not for an answer that may be older than an update. */
+  void setPublishers(const std::vector<std::string>& uris, bool is_update);
   void connectLocally(const std::shared_ptr<Publication>& publication);
   /** End the connections to publishers; with `retries` they are made again. */
   void dropConnections(bool retries);
@@ -132,7 +132,7 @@ class Subscription : public std::enable_shared_from_this<Subscription> {
   std::string md5sum_;
   std::map<std::string, std::shared_ptr<PublisherLink>> links_;
   std::vector<boost::shared_ptr<SubscriptionQueue>> queues_;
-  bool is_closed_ = false, has_no_delay_ = false;
+  bool is_closed_ = false, is_updated_ = false, has_no_delay_ = false;
   std::weak_ptr<Publication> local_publication_;
   boost::shared_ptr<M_string> local_header_;
 };

@@ -47,6 +47,28 @@ def pair(request: pytest.FixtureRequest, graph: Any, far: Any, monkeypatch: pyte
     return graph.node("talker"), (graph if request.param == "same process" else far).node("listener")
 
 
+def test_an_answer_that_is_older_than_an_update_drops_no_publisher(
+    graph: Any, far: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The master's answer to a registration may arrive after the update of a publisher that came since."""
+    talker, listener = graph.node("talker"), far.node("listener")
+    publisher = talker.advertise("late", STRING)
+    graph.ready(talker)
+    call = listener.master.call
+
+    async def answer_late(method: str, *arguments: object) -> Any:
+        answer = await call(method, *arguments)
+        if method != "registerSubscriber":
+            return answer
+        listener.endpoints.publishers_changed("/late", answer)
+        return []
+
+    monkeypatch.setattr(listener.master, "call", answer_late)
+    listener.subscribe("late", STRING, lambda _: None)
+    far.ready(listener)
+    graph.until(lambda: publisher.has_subscribers)
+
+
 def test_messages_reach_a_subscriber_in_order(graph: Any, pair: tuple[Any, Any]) -> None:
     talker, listener = pair
     got: list[str] = []

@@ -4,6 +4,7 @@ Adding and removing is thread-safe and does not block; everything else runs on t
 """
 
 import threading
+from collections import Counter
 from collections.abc import Awaitable, Callable
 from contextlib import AbstractContextManager
 from functools import partial
@@ -34,6 +35,8 @@ class NodeEndpoints:
         self._publishers: dict[str, Publisher] = {}
         self._subscriptions: dict[str, list[Subscription]] = {}
         self._services: dict[str, Service] = {}
+        self._updates = Counter[str]()
+        """Topic → number of its updates from the master."""
         self._unregistering: set[tuple[str, str]] = set()
         """Pairs (method, name) of unregistrations queued or in progress."""
         self._recorder = EndpointRecorder()
@@ -167,6 +170,8 @@ class NodeEndpoints:
 
     def publishers_changed(self, topic: str, uris: list[str]) -> None:
         """Handle publisherUpdate: connect to these publishers."""
+        if topic in self._subscriptions:
+            self._updates[topic] += 1
         for subscription in self._subscriptions.get(topic, []):
             subscription.follow(uris)
 
@@ -218,7 +223,9 @@ class NodeEndpoints:
         """Register the subscriptions of a topic; `keep_publishers`: keep connected publishers, which may not have
         registered again yet.
         """
+        before = self._updates[topic]
         publishers = await self._call_master("registerSubscriber", topic, type_name, self._node.uri)
+        may_be_old = self._updates[topic] != before  # than the update that came since
         uris = [str(uri) for uri in publishers]
         for subscription in self._subscriptions.get(topic, []):
-            (subscription.add_publishers if keep_publishers else subscription.follow)(uris)
+            (subscription.add_publishers if keep_publishers or may_be_old else subscription.follow)(uris)
