@@ -32,7 +32,7 @@ class ArmCase(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     ns: str = ""
     """Namespace of move_group."""
     tolerance: float = 0.01
-    """Of where a motion ends [rad, m]."""
+    """Tolerance of the positions at the end of a motion [rad, m]."""
     clock: bool = True
     """True: an empty world is started, for its clock."""
     floor: float | None = None
@@ -51,7 +51,7 @@ class ArmCase(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
 
 
 class GoalFigures(Struct, frozen=True, kw_only=True):
-    """What came of an arm's goals; all numbers are of goals."""
+    """Figures of an arm's goals: all but the median are numbers of goals."""
 
     goals: int = 0
     planned: int = 0

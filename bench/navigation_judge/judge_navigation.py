@@ -26,7 +26,7 @@ _LEVEL = 0.7
 """Vertical part of a contact's normal below which it is a collision."""
 _SETTLE_NS = 6_000_000_000
 _GUESS_ERROR = (0.25, -0.15, 0.2)
-"""What is wrong about the initial pose: x, y [m], yaw [rad]."""
+"""Error of the initial pose: x, y [m], yaw [rad]."""
 _FREE_M = 0.1
 """Distance from the robot's outline that goals keep to unknown and occupied cells."""
 _GAP_M = 0.15

@@ -133,7 +133,7 @@ class HectorMapping:
     # -- scans
 
     def _align(self, scan: "sensor_msgs.LaserScan") -> None:
-        """Let a scan wait until odometry reaches its stamp; not where nobody publishes odometry, or nobody asks."""
+        """Delay a scan until odometry reaches its stamp, if the node uses odometry, and it is published."""
         settings = self._settings
         uses_odometry = settings.pub_map_odom_transform and self._odom != self._base
         if uses_odometry and self._aligned.buffer.can_transform(self._odom, self._base):

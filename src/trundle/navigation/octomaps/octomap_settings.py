@@ -44,7 +44,7 @@ WITHOUT_EFFECT = ("compress_map", "incremental_2D_projection", "filter_speckles"
 
 
 class GroundFilter(NamedTuple):
-    """What counts as the ground."""
+    """Thresholds of the ground plane."""
 
     distance: float
     """Distance of its points from a plane [m]."""

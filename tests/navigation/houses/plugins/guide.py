@@ -23,7 +23,7 @@ _LEVEL = 0.7
 """Vertical part of a contact's normal below which it is a collision."""
 _BEGIN_NS, _HEARD_NS, _SETTLE_NS = 2_000_000_000, 300_000_000, 4_000_000_000
 _GUESS_ERROR = (0.3, -0.2, 0.25)
-"""What is wrong about the initial pose: x, y [m], yaw [rad]."""
+"""Error of the initial pose: x, y [m], yaw [rad]."""
 
 
 class Guide(Plugin):

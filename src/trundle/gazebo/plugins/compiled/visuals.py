@@ -1,4 +1,4 @@
-"""What compiled plugins of visuals draw: lines on the page, and visuals that change."""
+"""Drawings of compiled visual plugins: lines on the page, and changed visuals."""
 
 from collections.abc import Sequence
 
