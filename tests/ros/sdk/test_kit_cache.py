@@ -3,8 +3,13 @@
 import os
 from pathlib import Path
 
+import pytest
+
+from trundle.base.diagnostics import UsageError
 from trundle.base.file_lock import FileLock
+from trundle.ros.sdk import compiled_kit
 from trundle.ros.sdk.kit_cache import mark_used, note_workspace, trim
+from trundle.ros.sdk.toolchain import Toolchain
 
 
 def _kit(root: Path, name: str, age_s: int, *, compiler: str = "g++") -> Path:
@@ -47,3 +52,34 @@ def test_old_unfinished_kits_are_removed(tmp_path: Path) -> None:
     os.utime(old, (1e9, 1e9))
     trim(tmp_path, used)
     assert [path.name for path in tmp_path.iterdir()] == ["used"]
+
+
+def _program(file: Path, *lines: str) -> str:
+    file.write_text("\n".join(["#!/bin/sh", *lines, ""]))
+    file.chmod(0o755)
+    return str(file)
+
+
+def test_a_build_of_the_kit_tells_how_far_it_is(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    """Programs stand for the compiler's tools: a real build takes minutes."""
+    ninja = _program(
+        tmp_path / "ninja",
+        f'echo "$@" > {tmp_path}/arguments',
+        "for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do printf '%s' \"[$i/20] \"; echo compile; done",
+        "echo odd; test -z \"$FAILS\" || { echo 'error: no such header'; exit 1; }",
+    )
+    tools = Toolchain(_program(tmp_path / "c++"), "c++ 1", _program(tmp_path / "cmake"), ninja, None)
+    environment = {"XDG_CACHE_HOME": str(tmp_path / "cache"), "PATH": os.environ["PATH"]}
+
+    with pytest.raises(UsageError, match=r"cannot be compiled by .*c\+\+:\n(.*\n)*error: no such header"):
+        compiled_kit(tools, {**environment, "FAILS": "1"})
+    capfd.readouterr()
+    kit = compiled_kit(tools, environment, jobs="1")
+
+    told = capfd.readouterr().err.splitlines()
+    assert told[0] == "-- compiling the C++ development kit, once for this compiler"
+    assert told[1:] == [f"--   {built} of 20" for built in range(2, 21, 2)]
+    assert " -j 1 install" in (tmp_path / "arguments").read_text()
+    assert (kit.folder / "ready").exists()
+    compiled_kit(tools, environment)
+    assert capfd.readouterr().err == ""

@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -28,6 +28,7 @@ _INSTALLED = Path(message_header.__file__).parents[2] / "sdk"
 GAZEBO_CMAKE = next((path for path in (_INSTALLED, _ROOT / "sdk") if path.is_dir()), _INSTALLED) / "gazebo/cmake"
 """Folder in which CMake's find_package finds the kit's Gazebo."""
 _LOG_LINES = 30
+_STATUS = re.compile(r"\[(?P<built>\d+)/(?P<total>\d+)\] ")
 _POLL_S = 0.5
 
 
@@ -48,13 +49,16 @@ def kit_sources() -> Path:
     return folder
 
 
-def compiled_kit(toolchain: Toolchain, environment: Mapping[str, str], *, flags: str = "") -> Kit:
-    """Return the kit for a compiler; it is compiled on first use, which takes a minute.
+def compiled_kit(
+    toolchain: Toolchain, environment: Mapping[str, str], *, flags: str = "", jobs: str | None = None
+) -> Kit:
+    """Return the kit for a compiler; it is compiled on first use, which takes minutes and is told on stderr.
 
     Args:
         toolchain: compiler and tools.
         environment: environment variables; XDG_CACHE_HOME names the folder of caches.
         flags: additional flags of the compiler, such as -fsanitize=address.
+        jobs: number of compilers that run at the same time; None: one for each processor.
 
     Raises:
         UsageError: the kit cannot be compiled; the text ends with the compiler's output.
@@ -72,7 +76,7 @@ def compiled_kit(toolchain: Toolchain, environment: Mapping[str, str], *, flags:
         raise UsageError(f"cannot write {error.filename}: {error.strerror}") from None
     try:
         if not (folder / READY).exists():
-            _compile(sources, folder, toolchain, environment, flags)
+            _compile(sources, folder, toolchain, environment, flags, jobs)
         mark_used(folder, f"{toolchain.compiler}\n{toolchain.version}")
         trim(root, folder)
     except OSError as error:
@@ -125,7 +129,9 @@ def link_programs(kit: Kit, packages: Mapping[str, Path], devel: Path) -> None:
             link.symlink_to(program)
 
 
-def _compile(sources: Path, folder: Path, toolchain: Toolchain, environment: Mapping[str, str], flags: str) -> None:
+def _compile(
+    sources: Path, folder: Path, toolchain: Toolchain, environment: Mapping[str, str], flags: str, jobs: str | None
+) -> None:
     print("-- compiling the C++ development kit, once for this compiler", file=sys.stderr, flush=True)
     headers = Headers({}, folder / "include", folder / "include", provided=sources)
     headers.write_included([sources])
@@ -137,12 +143,39 @@ def _compile(sources: Path, folder: Path, toolchain: Toolchain, environment: Map
         *([] if toolchain.boost is None else [f"-DTRUNDLE_BOOST={toolchain.boost / 'include'}"]),
         *zig_definitions(toolchain.compiler),
     ]
-    for command in (configure, [toolchain.ninja, "-C", build, "install"]):
-        done = subprocess.run(command, env=dict(environment), capture_output=True, text=True, check=False)
-        if done.returncode:
-            log = "\n".join((done.stdout + done.stderr).splitlines()[-_LOG_LINES:])
+    install = [toolchain.ninja, "-C", build, *([] if jobs is None else ["-j", jobs]), "install"]
+    for command in (configure, install):
+        code, lines = _run(command, environment)
+        if code:
+            log = "\n".join(lines[-_LOG_LINES:])
             raise UsageError(f"the C++ development kit cannot be compiled by {toolchain.compiler}:\n{log}")
     shutil.rmtree(build, ignore_errors=True)
+
+
+def _run(command: Sequence[str | Path], environment: Mapping[str, str]) -> tuple[int, list[str]]:
+    """Run a tool; print how much Ninja has built, on a terminal on one line, else at each tenth."""
+    lines: list[str] = []
+    on_terminal, tenth = sys.stderr.isatty(), 0
+    with subprocess.Popen(
+        command,
+        env={**environment, "NINJA_STATUS": "[%f/%t] "},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+    ) as process:
+        assert process.stdout is not None
+        for line in process.stdout:
+            lines.append(line.rstrip())
+            if (status := _STATUS.match(line)) is None:
+                continue
+            built, total = int(status["built"]), int(status["total"])
+            if on_terminal:
+                print(f"\r--   {built} of {total} ", end="\n" if built == total else "", file=sys.stderr, flush=True)
+            elif (reached := 10 * built // max(total, 1)) > tenth:
+                tenth = reached
+                print(f"--   {built} of {total}", file=sys.stderr, flush=True)
+    return process.returncode, lines
 
 
 def _digest(sources: Path, toolchain: Toolchain, flags: str) -> str:

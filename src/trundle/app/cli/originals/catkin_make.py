@@ -153,7 +153,7 @@ def _build(
     )
 
     toolchain = find_toolchain(os.environ)
-    kit = compiled_kit(toolchain, os.environ)
+    kit = compiled_kit(toolchain, os.environ, jobs=args.jobs)
     headers = Headers(known, workspace.devel / "include", kit.folder / "include", provided=kit.sources)
     builder = PackageBuilder(
         kit,
