@@ -1,7 +1,7 @@
 """Goals of pickup and place as manipulations."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -101,12 +101,7 @@ def pick_goals(
             *(str(o) for o in goal.allowed_touch_objects),
         ]
         _allow(before, touched, [*hand, *touch_links])
-        _allow(before, [OCTOMAP], [name])
-        support = str(goal.support_surface_name)
-        if support:
-            _allow(before, [support], [name])
-            if goal.allow_gripper_support_collision:
-                _allow(before, [support], hand)
+        _allow_surroundings(before, goal, name, hand)
         after = before.copy()
         item = after.objects.pop(name)
         hand_from_item = model_from_hand.inverse() @ item.pose
@@ -169,12 +164,7 @@ def place_goals(
         before = contents.copy()
         touched = [*(str(o) for o in location.allowed_touch_objects), *(str(o) for o in goal.allowed_touch_objects)]
         _allow(before, touched, [name, *hand])
-        _allow(before, [OCTOMAP], [name])
-        support = str(goal.support_surface_name)
-        if support:
-            _allow(before, [support], [name])
-            if goal.allow_gripper_support_collision:
-                _allow(before, [support], hand)
+        _allow_surroundings(before, goal, name, hand)
         after = before.copy()
         item = after.carried.pop(name)
         after.objects[name] = _at(item.object, model_from_hand @ hand_from_item)
@@ -203,6 +193,14 @@ def place_goals(
 
 def _at(item: SceneObject, pose: Pose) -> SceneObject:
     return replace(item, pose=pose)
+
+
+def _allow_surroundings(contents: SceneContents, goal: "Message", name: str, hand: Sequence[str]) -> None:
+    """Let the object, and where the goal says so the hand, touch the octomap and the support surface."""
+    _allow(contents, [OCTOMAP], [name])
+    support = str(goal.support_surface_name)
+    if support:
+        _allow(contents, [support], [*hand, name] if goal.allow_gripper_support_collision else [name])
 
 
 def _allow(contents: SceneContents, names: Iterable[str], others: Iterable[str]) -> None:
