@@ -399,6 +399,7 @@ def test_quiet_keeps_output_of_nodes_and_failures(launch: Launch, package: Path)
     messages = [line for line in lines if not line.startswith("hello 0")]
     assert messages[0] == "[b-2] process has died [exit code 3]; its last output:"
     assert messages[1].startswith("log file: ")
+    assert done.stderr == ""
 
 
 @pytest.mark.slow

@@ -20,8 +20,16 @@ def say(text: str, stream: TextIO | None = None) -> None:
 class Console:
     """Prints lines and findings on one stream; stdout stays free for results."""
 
-    def __init__(self, stream: TextIO, report: Diagnostics) -> None:
+    def __init__(self, stream: TextIO, report: Diagnostics, *, quiet: bool = False) -> None:
+        """Take a stream and findings.
+
+        Args:
+            stream: where lines are printed.
+            report: its findings are printed by `findings`.
+            quiet: whether notes are omitted.
+        """
         self._stream = stream
+        self._quiet = quiet
         self._report = report
         self._shown = 0
         self._log: Callable[[str], None] | None = None
@@ -37,6 +45,11 @@ class Console:
         say(colored(text, self._stream), self._stream)
         if self._log is not None:
             self._log(text)
+
+    def note(self, text: str) -> None:
+        """Print one line about what goes well, unless the console is quiet."""
+        if not self._quiet:
+            self.line(text)
 
     def findings(self) -> None:
         """Print the findings since the last call, except notes, which only `trundle check` prints."""

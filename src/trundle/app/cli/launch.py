@@ -71,7 +71,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--local", action="store_true", help="no remote nodes, as always here")
     add("--core", action="store_true", dest="core_only", help="master, parameter server and rosout only")
     add("--pid", type=Path, dest="pid_file", metavar="FILE", help="write the process id there")
-    add("-q", "--quiet", action="store_true", help="print problems only")
+    add("-q", "--quiet", action="store_true", help="print problems, and the plugins that run, only")
     add("-v", dest="verbose", action="store_true", help="print files read and parameters set")
     add("--no-summary", action="store_false", dest="summary", help="do not show parameters and nodes at the start")
     interrupt, terminate = (f"wait for a node after {signal}" for signal in ("SIGINT (15)", "SIGTERM (2)"))

@@ -97,12 +97,12 @@ def _read(
     request: LaunchRequest, options: LaunchOptions, packages: Packages, env: dict[str, str]
 ) -> LoadedLaunch | None:
     report = Diagnostics(strict=options.strict)
-    show = Console(sys.stderr, report)
+    show = Console(sys.stderr, report, quiet=options.quiet)
     start = request.files[0] if request.files else Path.cwd()
     packages = packages.around(start)
     for package, variables in packages.hook_variables().items():
         env.update(variables)
-        show.line(f"set {', '.join(variables)} as the environment hooks of {package} do")
+        show.note(f"set {', '.join(variables)} as the environment hooks of {package} do")
     if options.only == "arguments":
         for file in request.files:
             declared = read_arguments(file, packages=packages, report=report, arguments=request.arguments, env=env)
@@ -119,7 +119,7 @@ def _read(
     )
     packages.warn_shadowed(report, Source(str(start)))
     for path in packages.configured_files:
-        show.line(f"wrote {path} from its template, as catkin_make does")
+        show.note(f"wrote {path} from its template, as catkin_make does")
     show.findings()
     if options.only is not None and options.only != "params":
         print(_printed(options, plan, packages, env))
@@ -164,7 +164,7 @@ def _run(loaded: LoadedLaunch, options: LaunchOptions, stop: StopFlag, read_agai
             clock_warning.check()
             if session.is_reload_due:
                 running = session.reload(is_ending=stop.is_set)
-                session.show.line("the launch is loaded again")
+                session.show.note("the launch is loaded again")
             is_over = session.is_over or running.required_died or (running.is_over and not session.has_master)
             is_over = is_over or session.recording_failed
         required_failed = running.required_failed

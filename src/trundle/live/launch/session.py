@@ -91,7 +91,7 @@ class LaunchSession:
                 loaded.env, host=options.host, ports=ports, rosout=rosout, log_folder=partial(log_folder, loaded.env)
             )
         )
-        show.line(graph.summary)
+        show.note(graph.summary)
         launcher = self._launcher = Node(
             "/roslaunch", loop=graph.loop, master_uri=graph.master_uri, host=graph.host, rosout=False
         )
@@ -121,7 +121,7 @@ class LaunchSession:
             settle = None if self._setup is None else self._setup.settle
             self._lockstep = Lockstep(graph.loop, end_ns=end_ns, recorder=recorder, say=show.line, settle=settle)
             if publishes_clock:
-                show.line("no simulation publishes /clock: it is published here, as fast as the nodes can follow")
+                show.note("no simulation publishes /clock: it is published here, as fast as the nodes can follow")
                 self._resources.callback(ClockPublisher(launcher, self._lockstep).close)
         page = self._page = None if options.headless else self._shared_page()
         if page is not None:
