@@ -5,8 +5,9 @@
 
 namespace trundle::navigation {
 
-// End points of the beams in the robot's frame, in cells.
+// Numbers of the beams in the scan, and their end points in the robot's frame, in cells.
 struct LaserModel::Beams {
+  std::vector<std::size_t> numbers;
   std::vector<float> x, y;
 };
 
@@ -16,6 +17,11 @@ LaserModel::LaserModel(const LaserOptions& options, std::shared_ptr<const Occupa
 }
 
 namespace {
+
+constexpr std::size_t kAskedParticles = 32;
+constexpr double kKnownShare = 0.7;
+constexpr double kStepCells = 0.5;
+constexpr double kNearCells = 2.0;  // a wall may be thicker than mapped
 
 std::size_t beam_step(const LaserScan& scan, int max_beams) {
   if (scan.ranges.empty() || max_beams < 2) return std::max<std::size_t>(1, scan.ranges.size());
@@ -31,6 +37,7 @@ LaserModel::Beams LaserModel::used_beams(const LaserScan& scan) const {
   const double scale = 1.0 / map_->resolution;
   for (std::size_t i = 0; i < scan.ranges.size(); i += beam_step(scan, options_.max_beams)) {
     if (!(scan.ranges[i] < scan.range_max)) continue;  // nothing was hit; NaN too
+    beams.numbers.push_back(i);
     beams.x.push_back(static_cast<float>(scale * (scan.x + scan.ranges[i] * std::cos(scan.bearings[i]))));
     beams.y.push_back(static_cast<float>(scale * (scan.y + scan.ranges[i] * std::sin(scan.bearings[i]))));
   }
@@ -53,16 +60,80 @@ void LaserModel::fill_table(double range_max) {
       table_[(row + 1) * (width + 2) + column + 1] = term(distances_[row * width + column]);
 }
 
-double LaserModel::weigh(std::vector<Particle>& particles, const LaserScan& scan, bool has_converged) {
+std::optional<double> LaserModel::weigh(std::vector<Particle>& particles, const LaserScan& scan,
+                                        const Agreement& agreement) {
   if (options_.kind == LaserKind::kBeam) {
     weigh_by_rays(particles, scan);
     return 0.0;
   }
   fill_table(scan.range_max);
-  const Beams beams = used_beams(scan);
-  const bool may_skip = options_.kind == LaserKind::kLikelihoodFieldProb && options_.do_beamskip && has_converged;
-  return weigh_by_table(particles, beams,
+  Beams beams = used_beams(scan);
+  const std::size_t count = beams.x.size();
+  if (agreement.is_together) {
+    keep_known(particles, scan, beams);
+    if (beams.x.empty() && count > 0) return std::nullopt;
+  }
+  const bool may_skip =
+      options_.kind == LaserKind::kLikelihoodFieldProb && options_.do_beamskip && agreement.has_converged;
+  const double share = count > 0 ? static_cast<double>(beams.x.size()) / static_cast<double>(count) : 1.0;
+  return weigh_by_table(particles, beams, share,
                         may_skip ? agreed_beams(particles, beams) : std::vector<char>(beams.x.size(), 1));
+}
+
+// Leaves out the beams of which, from some of the particles, the map tells nothing.
+void LaserModel::keep_known(const std::vector<Particle>& particles, const LaserScan& scan, Beams& beams) const {
+  const std::size_t step = std::max<std::size_t>(1, particles.size() / kAskedParticles);
+  std::vector<PlanarPose> lasers;
+  for (std::size_t i = step / 2; i < particles.size(); i += step)
+    lasers.push_back(compose(particles[i].pose, {scan.x, scan.y, 0.0}));
+  const double needed = kKnownShare * static_cast<double>(lasers.size());
+  Beams known;
+  for (std::size_t i = 0; i < beams.x.size(); ++i) {
+    const std::size_t number = beams.numbers[i];
+    const auto knowing = std::count_if(lasers.begin(), lasers.end(), [&](const PlanarPose& laser) {
+      return is_known(laser, scan.ranges[number], scan.bearings[number]);
+    });
+    if (static_cast<double>(knowing) < needed) continue;
+    known.numbers.push_back(number);
+    known.x.push_back(beams.x[i]);
+    known.y.push_back(beams.y[i]);
+  }
+  beams = std::move(known);
+}
+
+namespace {
+
+// Part of a ray within [0, size) along one axis; empty if there is none.
+void clip(double start, double direction, double size, double& from, double& to) {
+  if (direction == 0.0) {
+    if (!(start >= 0.0 && start < size)) to = -1.0;
+    return;
+  }
+  const double low = -start / direction, high = (size - start) / direction;
+  from = std::max(from, std::min(low, high));
+  to = std::min(to, std::max(low, high));
+}
+
+}  // namespace
+
+// True if the map tells whether a beam is likely: the last known cell on its way is its end, or near an occupied one.
+bool LaserModel::is_known(const PlanarPose& laser, double range, double bearing) const {
+  const double angle = laser.yaw + bearing, c = std::cos(angle), s = std::sin(angle);
+  const double x = (laser.x - map_->origin_x) / map_->resolution, y = (laser.y - map_->origin_y) / map_->resolution;
+  const double near = kNearCells * map_->resolution, end = range / map_->resolution;
+  if (!std::isfinite(x + y + c)) return false;
+  double first = 0.0, last = end;
+  clip(x, c, map_->width, first, last);
+  clip(y, s, map_->height, first, last);
+  for (double length = last; length >= first; length -= kStepCells) {
+    const auto column = static_cast<int>(x + length * c), row = static_cast<int>(y + length * s);
+    if (!map_->contains(column, row)) continue;
+    const auto cell =
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(map_->width) + static_cast<std::size_t>(column);
+    if (distances_[cell] <= near) return true;
+    if (map_->cells[cell] == 0) return length == end;
+  }
+  return false;
 }
 
 namespace {
@@ -122,7 +193,8 @@ class Table {
 
 }  // namespace
 
-double LaserModel::weigh_by_table(std::vector<Particle>& particles, const Beams& beams,
+// share: of the scan's beams in `beams`.
+double LaserModel::weigh_by_table(std::vector<Particle>& particles, const Beams& beams, double share,
                                   const std::vector<char>& is_used) const {
   Table table(table_, *map_, beams.x.size());
   std::vector<double> sums;
@@ -133,13 +205,18 @@ double LaserModel::weigh_by_table(std::vector<Particle>& particles, const Beams&
     sums.push_back(double{sum});
   }
   if (options_.kind == LaserKind::kLikelihoodField) {
-    for (std::size_t p = 0; p < particles.size(); ++p) particles[p].weight *= 1.0 + sums[p];
-    return 0.0;
+    double total = 0.0, whole = 0.0;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      whole += particles[p].weight * (1.0 + sums[p] / share);
+      particles[p].weight *= 1.0 + sums[p];
+      total += particles[p].weight;
+    }
+    return share < 1.0 && total > 0.0 ? std::log(whole / total) : 0.0;
   }
   // Only ratios matter: the best particle's likelihood is kept from becoming zero.
   const double best = sums.empty() ? 0.0 : *std::max_element(sums.begin(), sums.end());
   for (std::size_t p = 0; p < particles.size(); ++p) particles[p].weight *= std::exp(sums[p] - best);
-  return best;
+  return best / share;
 }
 
 // Leaves out the beams that few particles explain; if these are nearly all beams, all are used.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "occupancy_map.h"
@@ -30,14 +31,21 @@ struct LaserScan {
   std::vector<double> ranges, bearings;  // [m], [rad] in the robot's frame
 };
 
+struct Agreement {
+  bool has_converged = false;  // all are close together: beams that most of them do not explain may be skipped
+  bool is_together = false;    // most are in one place
+};
+
 class LaserModel {
  public:
   LaserModel(const LaserOptions& options, std::shared_ptr<const OccupancyMap> map);
 
   // Multiplies the weights by the likelihoods up to a common factor, and returns the logarithm of this factor.
   //
-  // has_converged: the particles are close together, so that beams which most of them do not explain may be skipped.
-  double weigh(std::vector<Particle>& particles, const LaserScan& scan, bool has_converged);
+  // Beams of which the map tells nothing are left out if the particles are together: a pose whose beams end at the last
+  // known piece of a wall would seem likelier than one that has passed it. The factor takes all beams to be like those
+  // that are counted; without any, no weight changes, and there is no factor.
+  std::optional<double> weigh(std::vector<Particle>& particles, const LaserScan& scan, const Agreement& agreement);
 
   // True if a scan's beams are multiplied; the other models add them.
   bool is_sharp() const { return options_.kind == LaserKind::kLikelihoodFieldProb; }
@@ -48,7 +56,10 @@ class LaserModel {
   Beams used_beams(const LaserScan& scan) const;
   void fill_table(double range_max);
   void weigh_by_rays(std::vector<Particle>& particles, const LaserScan& scan) const;
-  double weigh_by_table(std::vector<Particle>& particles, const Beams& beams, const std::vector<char>& is_used) const;
+  double weigh_by_table(std::vector<Particle>& particles, const Beams& beams, double share,
+                        const std::vector<char>& is_used) const;
+  void keep_known(const std::vector<Particle>& particles, const LaserScan& scan, Beams& beams) const;
+  bool is_known(const PlanarPose& laser, double range, double bearing) const;
   std::vector<char> agreed_beams(const std::vector<Particle>& particles, const Beams& beams) const;
 
   LaserOptions options_;

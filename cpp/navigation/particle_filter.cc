@@ -12,6 +12,7 @@ namespace trundle::navigation {
 namespace {
 
 constexpr double kConvergedDistance = 0.5;  // [m]; amcl's
+constexpr double kTogetherDistance = 1.5;   // [m]
 // A set of max_particles would miss the pose in a large map: this many more are drawn, and the first scan reduces them.
 constexpr int kCandidatesPerParticle = 10, kMaxCandidates = 200'000;
 constexpr double kScanExponent = 6.0;
@@ -128,7 +129,7 @@ bool ParticleFilter::has_converged() const {
 
 // True if most particles are near their median: a few random ones, of the recovery or of the first spread, do not
 // matter.
-bool ParticleFilter::has_agreed() const {
+bool ParticleFilter::has_agreed(double distance) const {
   std::vector<double> x, y;
   for (const auto& [pose, weight] : particles_) {
     if (!std::isfinite(pose.x) || !std::isfinite(pose.y)) return false;
@@ -139,9 +140,8 @@ bool ParticleFilter::has_agreed() const {
   std::nth_element(x.begin(), x.begin() + middle, x.end());
   std::nth_element(y.begin(), y.begin() + middle, y.end());
   const double middle_x = *(x.begin() + middle), middle_y = *(y.begin() + middle);
-  const auto near = std::count_if(particles_.begin(), particles_.end(), [middle_x, middle_y](const Particle& particle) {
-    return std::abs(particle.pose.x - middle_x) <= kConvergedDistance &&
-           std::abs(particle.pose.y - middle_y) <= kConvergedDistance;
+  const auto near = std::count_if(particles_.begin(), particles_.end(), [=](const Particle& particle) {
+    return std::abs(particle.pose.x - middle_x) <= distance && std::abs(particle.pose.y - middle_y) <= distance;
   });
   return static_cast<double>(near) >= kAgreeingShare * static_cast<double>(particles_.size());
 }
@@ -150,8 +150,9 @@ void ParticleFilter::weigh(LaserModel& model, const LaserScan& scan) {
   std::vector<double> before;
   for (const auto& particle : particles_) before.push_back(particle.weight);
   if (particles_.empty()) return;
-  const bool has_agreed_before = has_agreed();
-  const double log_scale = model.weigh(particles_, scan, has_converged());
+  const bool has_agreed_before = has_agreed(kConvergedDistance);
+  const auto log_scale = model.weigh(particles_, scan, {has_converged(), has_agreed(kTogetherDistance)});
+  if (!log_scale) return;
   double total = 0.0;
   for (const auto& particle : particles_) total += particle.weight;
   if (!(total > 0.0)) {
@@ -159,7 +160,7 @@ void ParticleFilter::weigh(LaserModel& model, const LaserScan& scan) {
     return;
   }
   for (auto& particle : particles_) particle.weight /= total;
-  const double likelihood = total * std::exp(log_scale);
+  const double likelihood = total * std::exp(*log_scale);
   slow_average_ =
       slow_average_ == 0.0 ? likelihood : slow_average_ + options_.alpha_slow * (likelihood - slow_average_);
   fast_average_ =

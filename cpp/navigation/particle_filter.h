@@ -53,7 +53,7 @@ class ParticleFilter {
   void draw();
   PlanarPose random_pose();
   bool has_converged() const;
-  bool has_agreed() const;
+  bool has_agreed(double distance) const;
 
   FilterOptions options_;
   std::shared_ptr<const OccupancyMap> map_;

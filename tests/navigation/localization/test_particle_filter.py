@@ -222,6 +222,33 @@ def test_an_odometry_that_is_wrong_by_a_few_percent_is_not_followed(
     assert np.sqrt(np.mean(np.square(errors[20:]))) < most_m
 
 
+@pytest.mark.parametrize("kind", [FIELD, PROB])
+@pytest.mark.parametrize("known_m", [1.2, 3.0], ids=["a piece of two walls", "a half of a room"])
+def test_a_robot_that_leaves_the_known_part_of_a_map_is_not_held_back(kind: int, known_m: float) -> None:
+    """9 m along a hall, with an odometry that is right; scans see all walls, the map has those near the start."""
+    cells = np.zeros((80, 240), dtype=np.int8)
+    cells[[0, -1], :] = cells[:, [0, -1]] = 100
+    hall = OccupancyMap(cells, resolution=RESOLUTION, x=0.0, y=0.0)
+    known = cells.copy()
+    known[:, round(known_m / RESOLUTION) :] = -1
+    part = OccupancyMap(known, resolution=RESOLUTION, x=0.0, y=0.0)
+    laser_options = LaserOptions()
+    laser_options.kind, laser_options.max_beams = kind, 90
+    model = LaserModel(laser_options, part)
+    particles = ParticleFilter(options(alpha_slow=0.001, alpha_fast=0.1), part, seed=1)
+    particles.spread((1.0, 2.0, 0.0), (1e-3, 0.0, 0.0, 0.0, 1e-3, 0.0, 0.0, 0.0, 1e-3))
+    errors: list[float] = []
+    for i in range(45):
+        pose = (1.0 + 0.2 * (i + 1), 2.0, 0.0)
+        particles.move(OdometryModel(DIFF, (0.1, 0.1, 0.1, 0.1, 0.1)), (0.2 * i, 0.0, 0.0), (0.2 * (i + 1), 0.0, 0.0))
+        weigh(particles, model, ranges_at(hall, pose))
+        (x, y, _), _ = particles.estimate()
+        errors.append(math.hypot(x - pose[0], y - pose[1]))
+        particles.resample()
+
+    assert max(errors) < 0.2
+
+
 def test_same_seeds_draw_the_same_particles() -> None:
     def run() -> bytes:
         particles = ParticleFilter(options(), house_map(), seed=7)
