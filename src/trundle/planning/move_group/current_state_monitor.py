@@ -37,6 +37,8 @@ class CurrentStateMonitor:
         self._positions = model.default_positions()
         self._velocities = np.zeros(len(model.variables))
         self._stamps_ns: dict[str, int] = {}
+        self._named_missing: list[str] = []
+        """Joints that the last warning about an incomplete state named."""
         self._multi = [joint for joint in model.joints if len(joint.variables) > 1]
         self._needed = [
             joint.name
@@ -110,7 +112,20 @@ class CurrentStateMonitor:
         clock = self._node.clock
         start_ns = clock.now_ns()
         while self.stamp_ns() < since_ns:
-            if clock.now_ns() - start_ns > wait_s * NS_PER_S or self._node.closed.is_set():
+            if self._node.closed.is_set():
+                return False
+            if clock.now_ns() - start_ns > wait_s * NS_PER_S:
+                self._report_missing(wait_s)
                 return False
             await asyncio.sleep(_POLL_S)
         return True
+
+    def _report_missing(self, wait_s: float) -> None:
+        """Log that no recent state came; joints that were never reported are a warning, once for each set of them."""
+        self._node.log.info(
+            f"Didn't receive robot state (joint angles) with recent timestamp within {wait_s:f} seconds"
+        )
+        missing = [name for name in self._needed if name not in self._stamps_ns]
+        if missing and missing != self._named_missing:
+            self._node.log.warn(f"The complete state of the robot is not yet known.  Missing {', '.join(missing)}")
+        self._named_missing = missing
