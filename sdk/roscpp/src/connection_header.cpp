@@ -30,6 +30,11 @@ std::vector<uint8_t> encodeHeader(const M_string& fields) {
   return bytes;
 }
 
+XmlRpc::XmlRpcValue headerValue(const M_string& fields) {
+  std::vector<uint8_t> bytes = encodeHeader(fields);
+  return XmlRpc::XmlRpcValue(bytes.data() + 4, static_cast<int>(bytes.size() - 4));
+}
+
 M_string decodeHeader(const uint8_t* bytes, size_t size) {
   M_string fields;
   for (size_t at = 0; at < size;) {

@@ -89,10 +89,14 @@ void Connection::send(const boost::shared_array<uint8_t>& bytes, size_t size, si
   if (wakes) Loop::instance().wake();
 }
 
+ptrdiff_t Connection::write(const uint8_t* bytes, size_t size, size_t sent) {
+  return ::send(socket_.fd(), bytes + sent, size - sent, kFlags);
+}
+
 bool Connection::flush() {
   while (!packets_.empty()) {
     const Packet& packet = packets_.front();
-    const ssize_t count = ::send(socket_.fd(), packet.bytes.get() + sent_, packet.size - sent_, kFlags);
+    const ptrdiff_t count = write(packet.bytes.get(), packet.size, sent_);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) return errno == EAGAIN || errno == EWOULDBLOCK;
     sent_ += static_cast<size_t>(count);
@@ -189,13 +193,14 @@ void Loop::stop() {
   thread_.join();
 }
 
-void Loop::add(const std::shared_ptr<Connection>& connection) {
+bool Loop::add(const std::shared_ptr<Connection>& connection) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (connections_.size() >= kMaxConnections) return;  // the last owner closes the socket
+    if (connections_.size() >= kMaxConnections) return false;  // the last owner closes the socket
     connections_.push_back(connection);
   }
   wake();
+  return true;
 }
 
 void Loop::accept(Socket listening, std::function<void(Socket)> accepted) {

@@ -34,6 +34,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
  protected:
   /** Read the available bytes; false at the end of the stream. */
   virtual bool onReadable() = 0;
+  /** Send the bytes of a packet after the first `sent`, or a part of them. Returns their number, or -1 with errno. */
+  virtual ptrdiff_t write(const uint8_t* bytes, size_t size, size_t sent);
   /** Read at most `size` bytes without waiting. Returns their number, 0 if none are available, -1 at the end. */
   ptrdiff_t receive(void* bytes, size_t size);
   int fd() const { return socket_.fd(); }
@@ -83,7 +85,8 @@ class Loop {
   void start();
   /** Close all connections, and end the thread. */
   void stop();
-  void add(const std::shared_ptr<Connection>& connection);
+  /** Watch a connection; false if there are too many. */
+  bool add(const std::shared_ptr<Connection>& connection);
   /** Accept connections on a socket. */
   void accept(Socket listening, std::function<void(Socket)> accepted);
   void wake();

@@ -30,16 +30,6 @@ class StatusCall : public CallbackInterface {
 
 }  // namespace
 
-void SubscriberLink::send(const SerializedMessage& message) {
-  if (connection) connection->send(message.buf, message.num_bytes, queue_size);
-  else if (const std::shared_ptr<Subscription> subscription = local.lock())
-    subscription->handleMessage(message, local_header);
-}
-
-std::string SingleSubscriberPublisher::getTopic() const { return link_->topic; }
-std::string SingleSubscriberPublisher::getSubscriberName() const { return link_->subscriber; }
-void SingleSubscriberPublisher::send(const SerializedMessage& message) const { link_->send(message); }
-
 Publication::Publication(const AdvertiseOptions& options)
     : topic(options.topic),
       md5sum(options.md5sum),
@@ -57,7 +47,7 @@ void Publication::publish(const boost::shared_ptr<Callbacks>& publisher,
     sequence = ++sequence_;
     links = links_;
   }
-  const bool has_remote = std::any_of(links.begin(), links.end(), [](const auto& link) { return link->connection; });
+  const bool has_remote = std::any_of(links.begin(), links.end(), [](const auto& link) { return link->is_remote; });
   const bool needs_bytes = std::any_of(links.begin(), links.end(), [&message](const auto& link) {
     const std::shared_ptr<Subscription> subscription = link->local.lock();
     return subscription && (!message.message || subscription->needsBytes(*message.type_info));
@@ -127,7 +117,7 @@ void Publication::removeLink(const boost::shared_ptr<SubscriberLink>& link) {
 
 void Publication::closeLinks() {
   for (const auto& link : links())
-    if (link->connection) link->connection->close(true);
+    if (link->is_remote) link->close(true);
     else removeLink(link);
 }
 

@@ -48,6 +48,13 @@ XmlRpcValue requestTopic(const XmlRpcValue& parameters) {
   if (!topics::publication(topic)) return answer(0, "requestTopic: topic [" + topic + "] is not published", 0);
   const XmlRpcValue& protocols = parameters[2];
   for (int i = 0; i < protocols.size(); ++i) {
+    if (protocols[i][0] == XmlRpcValue("UDPROS")) try {
+        return success(topics::acceptDatagramSubscriber(protocols[i]));
+      } catch (const net::NetError& error) {
+        return answer(0, std::string("requestTopic: ") + error.what(), 0);
+      } catch (const XmlRpc::XmlRpcException&) {
+        return answer(0, "requestTopic: UDPROS needs a header, a host, a port and a size of datagrams", 0);
+      }
     if (protocols[i][0] != XmlRpcValue("TCPROS")) continue;
     XmlRpcValue protocol;
     protocol[0] = std::string("TCPROS");
@@ -55,7 +62,7 @@ XmlRpcValue requestTopic(const XmlRpcValue& parameters) {
     protocol[2] = static_cast<int>(network::getTCPROSPort());
     return success(protocol);
   }
-  return answer(0, "requestTopic: the only protocol is TCPROS", 0);
+  return answer(0, "requestTopic: the protocols are TCPROS and UDPROS", 0);
 }
 
 XmlRpcValue publisherUpdate(const XmlRpcValue& parameters) {

@@ -3,11 +3,8 @@
 
 #include "connection_header.h"
 #include "node.h"
-#include "ros/init.h"
-#include "ros/network.h"
 #include "ros/this_node.h"
 #include "topics.h"
-#include "xml_rpc.h"
 
 namespace ros {
 namespace {
@@ -180,7 +177,7 @@ void Subscription::handleMessage(const SerializedMessage& message, const boost::
 
 void Subscription::setPublishers(const std::vector<std::string>& uris, bool is_update) {
   std::vector<std::shared_ptr<PublisherLink>> added;
-  std::vector<std::shared_ptr<net::FrameConnection>> dropped;
+  std::vector<std::shared_ptr<net::Connection>> dropped;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (is_closed_) return;
@@ -207,98 +204,12 @@ void Subscription::setPublishers(const std::vector<std::string>& uris, bool is_u
   for (const auto& link : added) connectInThread(link);
 }
 
-void Subscription::connectInThread(const std::shared_ptr<PublisherLink>& link) {
-  const std::shared_ptr<Subscription> self = shared_from_this();
-  node::runInThread([self, link] {
-    for (int pause = 100;; pause = std::min(2 * pause, 20000)) {
-      {
-        const std::lock_guard<std::mutex> lock(self->mutex_);
-        if (!link->is_wanted || self->is_closed_) return;
-      }
-      try {
-        self->connect(link);
-        return;
-      } catch (const std::exception& error) {
-        if (isShuttingDown()) return;
-        ROS_DEBUG("Connecting to %s for [%s] failed: %s", link->uri.c_str(), self->topic.c_str(), error.what());
-      }
-      if (!node::waitMs(pause)) return;
-    }
-  });
-}
-
-void Subscription::connect(const std::shared_ptr<PublisherLink>& link) {
-  std::string host;
-  uint32_t port = 0;
-  if (!network::splitURI(link->uri, host, port)) throw net::NetError("'" + link->uri + "' is not an address");
-  XmlRpc::XmlRpcValue arguments;
-  arguments[0] = this_node::getName();
-  arguments[1] = topic;
-  arguments[2][0][0] = std::string("TCPROS");
-  const XmlRpc::XmlRpcValue answer = net::callXmlRpc(host, static_cast<uint16_t>(port), "requestTopic", arguments);
-  if (static_cast<int>(answer[0]) != 1) throw net::NetError("the publisher refuses");
-  const XmlRpc::XmlRpcValue& protocol = answer[2];
-  const int data_port = protocol[2];
-  if (data_port <= 0 || data_port > 65535) throw net::NetError("the publisher names no port");
-  net::Socket socket = net::Socket::connect(static_cast<std::string>(protocol[1]), static_cast<uint16_t>(data_port));
-  M_string fields;
-  try {
-    fields = net::exchangeHeaders(socket, header());
-    if (!accepts(net::field(fields, "md5sum")))
-      throw net::NetError("md5sum is " + net::field(fields, "md5sum") + ", not " + md5sum());
-  } catch (const net::NetError& error) {
-    if (!isShuttingDown())
-      ROS_ERROR("Connection to the publisher %s of topic [%s] is refused: %s", link->uri.c_str(), topic.c_str(),
-                error.what());
-    throw;
-  }
-  const auto connection = std::make_shared<net::FrameConnection>(std::move(socket));
-  connection->max_frame = net::kMaxMessage;
-  const auto header = boost::make_shared<M_string>(fields);
-  const bool is_latched = net::field(fields, "latching") == "1";
-  const std::weak_ptr<Subscription> weak = shared_from_this();
-  connection->on_frame = [weak, link, header, is_latched](const boost::shared_array<uint8_t>& bytes, uint32_t size) {
-    const std::shared_ptr<Subscription> self = weak.lock();
-    if (!self) return false;
-    const SerializedMessage message(bytes, size);
-    if (is_latched) {
-      const std::lock_guard<std::mutex> lock(self->mutex_);
-      link->last = message;
-    }
-    self->handleMessage(message, header);
-    return true;
-  };
-  connection->on_closed = [weak, link] {
-    const std::shared_ptr<Subscription> self = weak.lock();
-    if (!self) return;
-    {
-      const std::lock_guard<std::mutex> lock(self->mutex_);
-      link->connection.reset();
-      if (!link->is_wanted || self->is_closed_) return;
-    }
-    if (!isShuttingDown()) self->connectInThread(link);
-  };
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (!link->is_wanted || is_closed_) return;
-    link->connection = connection;
-    link->header = header;
-    link->is_latched = is_latched;
-  }
-  net::Loop::instance().add(connection);
-}
-
 void Subscription::connectLocally(const std::shared_ptr<Publication>& publication) {
   const auto link = boost::make_shared<SubscriberLink>();
   link->topic = topic;
   link->subscriber = this_node::getName();
   link->local = shared_from_this();
-  link->local_header = boost::make_shared<M_string>(M_string{{"callerid", this_node::getName()},
-                                                             {"latching", publication->isLatched() ? "1" : "0"},
-                                                             {"md5sum", publication->md5sum},
-                                                             {"message_definition", publication->definition},
-                                                             {"topic", topic},
-                                                             {"type", publication->datatype}});
+  link->local_header = boost::make_shared<M_string>(topics::publicationHeader(*publication));
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (local_publication_.lock() == publication) return;
@@ -309,7 +220,7 @@ void Subscription::connectLocally(const std::shared_ptr<Publication>& publicatio
 }
 
 void Subscription::dropConnections(bool retries) {
-  std::vector<std::shared_ptr<net::FrameConnection>> connections;
+  std::vector<std::shared_ptr<net::Connection>> connections;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     for (const auto& entry : links_) {
@@ -321,7 +232,7 @@ void Subscription::dropConnections(bool retries) {
 }
 
 void Subscription::close() {
-  std::vector<std::shared_ptr<net::FrameConnection>> connections;
+  std::vector<std::shared_ptr<net::Connection>> connections;
   std::shared_ptr<Publication> local;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -370,10 +281,11 @@ bool Subscription::accepts(const std::string& md5sum) const {
   return own == "*" || md5sum == "*" || own == md5sum;
 }
 
-std::vector<std::pair<std::string, bool>> Subscription::connections() const {
+std::vector<Subscription::ConnectionState> Subscription::connections() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  std::vector<std::pair<std::string, bool>> all;
-  for (const auto& entry : links_) all.emplace_back(entry.first, static_cast<bool>(entry.second->connection));
+  std::vector<ConnectionState> all;
+  for (const auto& entry : links_)
+    all.push_back({entry.first, entry.second->transport, static_cast<bool>(entry.second->connection)});
   return all;
 }
 

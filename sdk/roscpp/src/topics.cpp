@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "connection_header.h"
 #include "node.h"
 #include "ros/init.h"
 #include "ros/this_node.h"
@@ -117,7 +116,7 @@ std::shared_ptr<Subscription> subscribe(const SubscribeOptions& options) {
     subscription->addCallback(options);
     return subscription;
   }
-  subscription = std::make_shared<Subscription>(options.topic, options.md5sum, options.datatype);
+  subscription = std::make_shared<Subscription>(options);
   subscription->addCallback(options);
   std::shared_ptr<Publication> own;
   {
@@ -148,47 +147,6 @@ void unsubscribe(const std::shared_ptr<Subscription>& subscription, const Subscr
   callMaster("unregisterSubscriber", subscription->topic, nullptr, payload);
 }
 
-bool acceptSubscriber(const std::shared_ptr<net::FrameConnection>& connection, const M_string& header) {
-  const std::string topic = net::field(header, "topic"), md5sum = net::field(header, "md5sum");
-  const std::shared_ptr<Publication> publication = find(state().publications, topic);
-  std::string error;
-  if (!publication)
-    error =
-        "received a connection for a nonexistent topic [" + topic + "] from [" + net::field(header, "callerid") + "]";
-  else if (md5sum.empty() || net::field(header, "type").empty())
-    error = "the header of a subscriber needs md5sum and type";
-  else if (md5sum != "*" && publication->md5sum != "*" && md5sum != publication->md5sum)
-    error = "Client [" + net::field(header, "callerid") + "] wants topic " + topic + " to have datatype/md5sum [" +
-            net::field(header, "type") + "/" + md5sum + "], but our version has [" + publication->datatype + "/" +
-            publication->md5sum + "]. Dropping connection.";
-  if (!error.empty()) {
-    if (!isShuttingDown()) ROS_ERROR("%s", error.c_str());
-    connection->send(net::encodeHeader({{"error", error}}));
-    connection->close(true);
-    return true;
-  }
-  connection->send(net::encodeHeader({{"callerid", this_node::getName()},
-                                      {"latching", publication->isLatched() ? "1" : "0"},
-                                      {"md5sum", publication->md5sum},
-                                      {"message_definition", publication->definition},
-                                      {"topic", topic},
-                                      {"type", publication->datatype}}));
-  const auto link = boost::make_shared<SubscriberLink>();
-  link->topic = topic;
-  link->subscriber = net::field(header, "callerid");
-  link->connection = connection;
-  link->queue_size = publication->queue_size;
-  const std::weak_ptr<Publication> weak = publication;
-  connection->max_frame = 0;  // after its header, a subscriber sends nothing
-  connection->on_frame = nullptr;
-  connection->on_closed = [weak, link] {
-    if (const std::shared_ptr<Publication> owner = weak.lock()) owner->removeLink(link);
-    link->connection.reset();
-  };
-  publication->addLink(link);
-  return true;
-}
-
 void publisherUpdate(const std::string& topic, const std::vector<std::string>& uris) {
   if (const std::shared_ptr<Subscription> subscription = find(state().subscriptions, topic))
     subscription->setPublishers(uris, true);
@@ -207,8 +165,7 @@ void dropConnections(bool retries) {
     for (const auto& entry : s.subscriptions) subscriptions.push_back(entry.second);
   }
   for (const auto& publication : publications)
-    for (const auto& link : publication->links())
-      if (const std::shared_ptr<net::FrameConnection> connection = link->connection) connection->close();
+    for (const auto& link : publication->links()) link->close();
   for (const auto& subscription : subscriptions) subscription->dropConnections(retries);
 }
 
@@ -231,21 +188,22 @@ V_string subscribed() {
 XmlRpc::XmlRpcValue busInfo() {
   XmlRpc::XmlRpcValue rows;
   rows.setSize(0);
-  const auto add = [&rows](const std::string& peer, const char* direction, const std::string& topic, bool is_open) {
+  const auto add = [&rows](const std::string& peer, const char* direction, const char* transport,
+                           const std::string& topic, bool is_open) {
     XmlRpc::XmlRpcValue row;
     row[0] = rows.size();
     row[1] = peer;
     row[2] = std::string(direction);
-    row[3] = std::string("TCPROS");
+    row[3] = std::string(transport);
     row[4] = topic;
     row[5] = is_open;
     rows[rows.size()] = row;
   };
   const std::lock_guard<std::mutex> lock(state().mutex);
   for (const auto& entry : state().publications)
-    for (const auto& link : entry.second->links()) add(link->subscriber, "o", entry.first, true);
+    for (const auto& link : entry.second->links()) add(link->subscriber, "o", link->transport, entry.first, true);
   for (const auto& entry : state().subscriptions)
-    for (const auto& link : entry.second->connections()) add(link.first, "i", entry.first, link.second);
+    for (const auto& link : entry.second->connections()) add(link.uri, "i", link.transport, entry.first, link.is_open);
   return rows;
 }
 

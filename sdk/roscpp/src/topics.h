@@ -23,14 +23,28 @@ class Subscription;
 /** One subscriber of a publication: in another process, or in this one. */
 class SubscriberLink {
  public:
+  /** Link within this process; `local` is to be set. */
+  SubscriberLink() = default;
+  /** Link to another process. */
+  SubscriberLink(std::shared_ptr<net::Connection> connection, const char* transport)
+      : is_remote(true), transport(transport), connection_(std::move(connection)) {}
+
+  void send(const SerializedMessage& message);
+  void close(bool after_sending = false);
+  /** Give up the connection, which has ended; another thread may be sending. */
+  void release() { std::atomic_store(&connection_, std::shared_ptr<net::Connection>()); }
+
+  const bool is_remote = false;
+  const char* const transport = "INTRAPROCESS";
   std::string topic, subscriber;
-  /** Connection to another process; null if `local` is set. */
-  std::shared_ptr<net::FrameConnection> connection;
+  /** Host and port to which datagrams go; "" for a stream. */
+  std::string address;
   std::weak_ptr<Subscription> local;
   boost::shared_ptr<M_string> local_header;
   size_t queue_size = 0;
 
-  void send(const SerializedMessage& message);
+ private:
+  std::shared_ptr<net::Connection> connection_;
 };
 
 /** A topic that this node publishes, by one or several publishers. */
@@ -84,8 +98,8 @@ class SubscriptionQueue;
 /** A topic that this node subscribes to, by one or several subscribers. */
 class Subscription : public std::enable_shared_from_this<Subscription> {
  public:
-  Subscription(const std::string& topic, const std::string& md5sum, const std::string& datatype)
-      : topic(topic), datatype(datatype), md5sum_(md5sum) {}
+  explicit Subscription(const SubscribeOptions& options)
+      : topic(options.topic), datatype(options.datatype), md5sum_(options.md5sum), hints_(options.transport_hints) {}
 
   /** Add a subscriber's callback; it gets the last messages of latched publishers. */
   void addCallback(const SubscribeOptions& options);
@@ -105,8 +119,12 @@ class Subscription : public std::enable_shared_from_this<Subscription> {
   /** True if a callback gets messages of another C++ class, which has to be made from bytes. */
   bool needsBytes(const std::type_info& sent) const;
   bool accepts(const std::string& md5sum) const;
-  /** Address, publisher's name and state of each connection. */
-  std::vector<std::pair<std::string, bool>> connections() const;
+  struct ConnectionState {
+    std::string uri;
+    const char* transport;
+    bool is_open;
+  };
+  std::vector<ConnectionState> connections() const;
 
   bool hasCallbacks() const {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -119,7 +137,8 @@ class Subscription : public std::enable_shared_from_this<Subscription> {
   /** Connection to one publisher. */
   struct PublisherLink {
     std::string uri;
-    std::shared_ptr<net::FrameConnection> connection;
+    std::shared_ptr<net::Connection> connection;
+    const char* transport = "TCPROS";
     boost::shared_ptr<M_string> header;
     SerializedMessage last;
     bool is_latched = false, is_wanted = true;
@@ -127,12 +146,26 @@ class Subscription : public std::enable_shared_from_this<Subscription> {
   void connectInThread(const std::shared_ptr<PublisherLink>& link);
   /** Connect to a publisher; throws net::NetError. */
   void connect(const std::shared_ptr<PublisherLink>& link);
+  /** Receive from a publisher that has answered requestTopic; throws net::NetError. */
+  void connectByStream(const std::shared_ptr<PublisherLink>& link, const XmlRpc::XmlRpcValue& protocol);
+  void connectByDatagrams(const std::shared_ptr<PublisherLink>& link, const XmlRpc::XmlRpcValue& protocol,
+                          net::Socket socket);
+  /** Check the header of a publisher; throws net::NetError. */
+  void check(const PublisherLink& link, const M_string& fields) const;
+  typedef std::function<bool(const boost::shared_array<uint8_t>&, uint32_t)> Receiver;
+  /** Function that takes the messages of a link, for a publisher's header. */
+  Receiver receiver(const std::shared_ptr<PublisherLink>& link, const M_string& fields);
+  /** Watch the connection of a link. */
+  void watch(const std::shared_ptr<PublisherLink>& link, const std::shared_ptr<net::Connection>& connection,
+             const char* transport);
 
   mutable std::mutex mutex_;
   std::string md5sum_;
   std::map<std::string, std::shared_ptr<PublisherLink>> links_;
   std::vector<boost::shared_ptr<SubscriptionQueue>> queues_;
   bool is_closed_ = false, is_updated_ = false, has_no_delay_ = false;
+  /** Of the first subscriber. */
+  const TransportHints hints_;
   std::weak_ptr<Publication> local_publication_;
   boost::shared_ptr<M_string> local_header_;
 };
@@ -148,6 +181,12 @@ std::shared_ptr<Subscription> subscribe(const SubscribeOptions& options);
 void unsubscribe(const std::shared_ptr<Subscription>& subscription, const SubscriptionCallbackHelperPtr& helper);
 /** Answer the header of a subscriber of another process; false closes the connection. */
 bool acceptSubscriber(const std::shared_ptr<net::FrameConnection>& connection, const M_string& header);
+/** Send a topic by datagrams, to a subscriber's entry of UDPROS in requestTopic; returns the answer's parameters.
+ *
+ * Throws net::NetError, or XmlRpc::XmlRpcException. */
+XmlRpc::XmlRpcValue acceptDatagramSubscriber(const XmlRpc::XmlRpcValue& protocol);
+/** Fields for the header of a connection to a subscriber. */
+M_string publicationHeader(const Publication& publication);
 /** Handle the master's list of a topic's publishers. */
 void publisherUpdate(const std::string& topic, const std::vector<std::string>& uris);
 /** A topic of this node; null if there is none. */

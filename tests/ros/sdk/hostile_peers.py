@@ -11,15 +11,15 @@ from contextlib import suppress
 _MUTATIONS = 40
 _LISTENING = """
 import psutil, sys
-for connection in psutil.Process(int(sys.argv[1])).net_connections("tcp"):
-    if connection.status == "LISTEN":
+for connection in psutil.Process(int(sys.argv[1])).net_connections(sys.argv[2]):
+    if connection.status in ("LISTEN", "NONE"):
         print(connection.laddr.port)
 """
 
 
-def listening_ports(pid: int) -> list[int]:
-    """Return the ports at which a node listens: those of XML-RPC and TCPROS."""
-    command = [sys.executable, "-c", _LISTENING, str(pid)]
+def listening_ports(pid: int, kind: str = "tcp") -> list[int]:
+    """Return the ports at which a node listens: those of XML-RPC and TCPROS, or with "udp" those of UDPROS."""
+    command = [sys.executable, "-c", _LISTENING, str(pid), kind]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     return [int(word) for word in done.stdout.split()]
 

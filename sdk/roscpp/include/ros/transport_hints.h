@@ -4,7 +4,7 @@
 
 namespace ros {
 
-/** Preferred transports of a subscriber; TCPROS is used also where UDPROS is preferred, as with publishers of rospy. */
+/** Preferred transports of a subscriber, best first. Publishers of rospy have TCPROS alone, which is then used. */
 class TransportHints {
  public:
   TransportHints& reliable() { return add("TCP"); }
