@@ -2,6 +2,8 @@
 
 #include <tf2/LinearMath/Quaternion.h>
 
+#include "tf/LinearMath/Vector3.h"
+
 namespace tf {
 using tf2::Quaternion;
 using tf2::quatRotate;
