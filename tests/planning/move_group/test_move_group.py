@@ -232,3 +232,29 @@ def test_a_straight_line_keeps_the_cartesian_limits_of_the_parameters(graph: Any
     times = np.array([point.time_from_start.sec + 1e-9 * point.time_from_start.nanosec for point in points])
     speeds = np.linalg.norm(np.diff(places, axis=0), axis=1) / np.diff(times)
     assert 0.019 < speeds.max() < 0.0201
+
+
+def test_a_path_constraint_without_a_link_of_the_robot_is_left_out_with_a_warning(graph: Any) -> None:
+    """As in MoveIt; the example of Kinova's arms has one without a link."""
+    start_arm(graph)
+    lines = graph.listen("/rosout_agg", "rosgraph_msgs/Log")
+    unknown = {
+        "orientation_constraints": [{"orientation": {"w": 1.0}}],
+        "position_constraints": [{"header": {"frame_id": "base_link"}, "link_name": "tail"}],
+        "joint_constraints": [{"joint_name": "joint_9", "position": 9.0}],
+    }
+    wanted = {**request(joint_goal(_AWAY)), "path_constraints": unknown}
+
+    answer = graph.call("/plan_kinematic_path", _PLAN, motion_plan_request=wanted).motion_plan_response
+    state = graph.call(
+        "/check_state_validity", "moveit_msgs/GetStateValidity", robot_state={"is_diff": True}, constraints=unknown
+    )
+
+    assert answer.error_code.val == _SUCCESS
+    assert state.valid
+    graph.until(lambda: len([line for line in lines if "Constraint invalid." in line.msg]) == 6)
+    assert {line.msg for line in lines if "Constraint invalid." in line.msg} == {
+        "Could not find link model for link name ''. Constraint invalid.",
+        "Position constraint link model tail not found in kinematic model. Constraint invalid.",
+        "Joint 'joint_9' not found in model 'six_axis'. Constraint invalid.",
+    }

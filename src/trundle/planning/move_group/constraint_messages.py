@@ -5,6 +5,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from msgspec.structs import replace
 
 from trundle.planning.planners import (
     Constraints,
@@ -61,6 +62,42 @@ def constraints_of(message: "Message", model: "RobotModel", frames: Frames) -> C
         positions=tuple(_position(one, model, frames) for one in message.position_constraints),
         orientations=tuple(_orientation(one, model, frames) for one in message.orientation_constraints),
         visibilities=tuple(_visibility(one, model, frames) for one in message.visibility_constraints),
+    )
+
+
+def known_constraints(
+    message: "Message", model: "RobotModel", frames: Frames, warn: Callable[[str], object]
+) -> Constraints:
+    """Read moveit_msgs/Constraints of paths or states: without those of links and joints that the robot lacks.
+
+    MoveIt checks only what it can, and so do programs that rely on that: a constraint without a link is none.
+
+    Args:
+        message: the constraints.
+        model: robot.
+        frames: present ones.
+        warn: called with a sentence for each constraint that is left out.
+
+    Raises:
+        ValueError: too many, or numbers that are not finite.
+        FrameError: a frame is unknown.
+    """
+    constraints = constraints_of(message, model, frames)
+    variables = frozenset(model.variables)
+    for joint in constraints.joints:
+        if joint.variable not in variables:
+            warn(f"Joint '{joint.variable}' not found in model '{model.name}'. Constraint invalid.")
+    for place in constraints.positions:
+        if not model.has_link(place.link):
+            warn(f"Position constraint link model {place.link} not found in kinematic model. Constraint invalid.")
+    for turn in constraints.orientations:
+        if not model.has_link(turn.link):
+            warn(f"Could not find link model for link name '{turn.link}'. Constraint invalid.")
+    return replace(
+        constraints,
+        joints=tuple(joint for joint in constraints.joints if joint.variable in variables),
+        positions=tuple(place for place in constraints.positions if model.has_link(place.link)),
+        orientations=tuple(turn for turn in constraints.orientations if model.has_link(turn.link)),
     )
 
 
@@ -124,22 +161,33 @@ def _visibility(message: "Message", model: "RobotModel", frames: Frames) -> Visi
 
 
 def constraint_check(
-    kinematics: "Kinematics", message: "Message", frames: Frames, scene: "PlanningScene | None"
+    kinematics: "Kinematics",
+    message: "Message",
+    frames: Frames,
+    scene: "PlanningScene | None",
+    warn: Callable[[str], object],
 ) -> Callable[[np.ndarray], bool]:
     """Return a function that is True for states that satisfy moveit_msgs/Constraints; `scene` is asked for sight.
+
+    What `known_constraints` leaves out is satisfied.
 
     Raises:
         ValueError: numbers that are not finite.
         FrameError: a frame is unknown.
     """
-    constraints = constraints_of(message, kinematics.model, frames)
+    constraints = known_constraints(message, kinematics.model, frames, warn)
     if constraints.is_empty:
         return lambda _: True
     return lambda positions: all(is_met for is_met, _ in _results(kinematics, constraints, positions, scene))
 
 
 def evaluate(
-    kinematics: "Kinematics", message: "Message", frames: Frames, positions: np.ndarray, scene: "PlanningScene"
+    kinematics: "Kinematics",
+    message: "Message",
+    frames: Frames,
+    positions: np.ndarray,
+    scene: "PlanningScene",
+    warn: Callable[[str], object],
 ) -> list[tuple[bool, float]]:
     """Return for each constraint whether a state satisfies it, and how far it is off; 0 for constraints of sight.
 
@@ -147,7 +195,7 @@ def evaluate(
         ValueError: numbers that are not finite.
         FrameError: a frame is unknown.
     """
-    return _results(kinematics, constraints_of(message, kinematics.model, frames), positions, scene)
+    return _results(kinematics, known_constraints(message, kinematics.model, frames, warn), positions, scene)
 
 
 def _results(

@@ -31,7 +31,7 @@ from trundle.robots.parameters import RosParameters
 from trundle.ros import Node
 from trundle.spatial import Pose
 
-from .constraint_messages import constraints_of
+from .constraint_messages import constraints_of, known_constraints
 from .controllers import JointPath
 from .pipeline import Pipeline
 from .plan_outcome import PlanOutcome
@@ -174,7 +174,7 @@ class Pipelines:
             start = positions if from_present else await monitor.start_positions(request.start_state)
             frames = monitor.frames(start, contents)
             goals = tuple(constraints_of(goal, self.model, frames) for goal in request.goal_constraints)
-            path_constraints = constraints_of(request.path_constraints, self.model, frames)
+            path_constraints = known_constraints(request.path_constraints, self.model, frames, self._node.log.warn)
             contents = self._with_attached(monitor, contents, request.start_state, from_present)
         except FrameError as error:
             return self._failed(

@@ -8,7 +8,7 @@ import numpy as np
 from trundle.base.diagnostics import TrundleError
 from trundle.planning.planners import ErrorCode, JumpBounds, RequestError, cartesian_path
 
-from ..constraint_messages import constraints_of
+from ..constraint_messages import known_constraints
 from ..controllers import JointPath
 from ..scene import pose_of
 
@@ -70,7 +70,7 @@ async def _follow(context: "MoveGroupContext", request: "Message") -> dict[str, 
         revolute=float(request.revolute_jump_threshold),
         prismatic=float(request.prismatic_jump_threshold),
     )
-    path_constraints = constraints_of(request.path_constraints, model, frames)
+    path_constraints = known_constraints(request.path_constraints, model, frames, context.node.log.warn)
     contents = monitor.contents
     scene = pipelines.scene(contents, start)
 

@@ -57,7 +57,7 @@ async def _solve(context: "MoveGroupContext", request: "Message") -> tuple[Error
         poses = [frames.find(str(one.header.frame_id)) @ pose_of(one.pose) for one in targets]
         needs_scene = request.avoid_collisions or len(request.constraints.visibility_constraints)
         scene = context.pipelines.scene(monitor.contents, start) if needs_scene else None
-        is_satisfied = constraint_check(monitor.kinematics, request.constraints, frames, scene)
+        is_satisfied = constraint_check(monitor.kinematics, request.constraints, frames, scene, context.node.log.warn)
     except ValueError as error:
         context.node.log.error(f"compute_ik: {error}")
         return ErrorCode.INVALID_ROBOT_STATE, None

@@ -25,7 +25,9 @@ def offer_state_validity(context: "MoveGroupContext") -> None:
             positions = await context.monitor.start_positions(request.robot_state)
             frames = context.monitor.frames(positions)
             scene = context.pipelines.scene(context.monitor.contents, positions)
-            results = evaluate(context.monitor.kinematics, request.constraints, frames, positions, scene)
+            results = evaluate(
+                context.monitor.kinematics, request.constraints, frames, positions, scene, context.node.log.warn
+            )
         except (ValueError, TrundleError) as error:
             context.node.log.error(f"check_state_validity: {error}")
             return {"valid": False}
