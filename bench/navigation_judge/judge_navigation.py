@@ -145,6 +145,8 @@ class JudgeNavigation(Plugin):
             if self._now_ns > self._job["limit_s"] * 1e9:
                 self._end()
             if self._job["map"] is None:
+                if found is not None:
+                    self._compare(found, _compose(_inverse(self._result["world_from_map"]), place))
                 return
         self._navigate(found)
 
@@ -211,12 +213,7 @@ class JudgeNavigation(Plugin):
             self._has_guessed, self._seen_ns = True, self._now_ns
             return
         if found is not None:
-            error = math.dist(found[:2], in_map[:2])
-            self._result.setdefault("first_error_m", error)
-            if self._now_ns % 1_000_000_000 < self.period_ns and "LOGS" in os.environ:
-                self._result.setdefault("trace", []).append([self._now_ns // 10**9, *in_map, *found])
-            self._result["error_m"] = error
-            self._result["error_deg"] = abs(math.degrees(math.remainder(found[2] - in_map[2], math.tau)))
+            self._compare(found, in_map)
         is_settled = self._now_ns - self._seen_ns > _SETTLE_NS
         if not self._is_driving and is_settled and self._goals.has_subscribers:
             if not self._todo:
@@ -233,6 +230,15 @@ class JudgeNavigation(Plugin):
             self._is_driving = True
         if self._now_ns > job["limit_s"] * 1e9:
             self._end()
+
+    def _compare(self, found: _Pose, true: _Pose) -> None:
+        """Note how far a pose in the map is from the true one."""
+        error = math.dist(found[:2], true[:2])
+        self._result.setdefault("first_error_m", error)
+        if self._now_ns % 1_000_000_000 < self.period_ns and "LOGS" in os.environ:
+            self._result.setdefault("trace", []).append([self._now_ns // 10**9, *true, *found])
+        self._result["error_m"] = error
+        self._result["error_deg"] = abs(math.degrees(math.remainder(found[2] - true[2], math.tau)))
 
     def _on_result(self, message: Any) -> None:
         if self._result["goals"] and self._is_driving:

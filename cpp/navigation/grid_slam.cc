@@ -8,9 +8,18 @@
 
 namespace trundle::navigation {
 
+namespace {
+
+constexpr double kNoHit = std::numeric_limits<double>::infinity();
+constexpr std::size_t kComparedScans = 500;
+constexpr double kLeastShare = 0.05;  // fewer beams that can be compared tell nothing
+
+}  // namespace
+
 GridSlam::GridSlam(const SlamOptions& options, std::vector<double> bearings, const PlanarPose& pose, std::uint64_t seed)
     : options_(options),
       bearings_(std::move(bearings)),
+      places_(bearings_, std::min(options.usable_range, options.max_range)),
       matcher_(options.match),
       random_(seed),
       particles_(static_cast<std::size_t>(std::max(options.particles, 1)), Particle{pose, HitMap(options.delta)}),
@@ -40,8 +49,10 @@ bool GridSlam::process(const PlanarPose& odometry, double time_s, const std::vec
   driven_ = turned_ = 0.0;
   last_time_s_ = time_s;
   std::vector<float> kept;
-  for (const double range : ranges)
-    kept.push_back(range > 0.0 && range <= options_.max_range ? static_cast<float>(range) : 0.0f);
+  for (const double range : ranges) {
+    const double hit = range <= options_.max_range ? range : kNoHit;
+    kept.push_back(range > 0.0 ? static_cast<float>(hit) : 0.0f);  // NaN is no measurement
+  }
   kept.resize(bearings_.size(), 0.0f);
   scans_.push_back(std::move(kept));
   if (has_started_) {
@@ -65,12 +76,33 @@ std::vector<BeamEnd> GridSlam::beam_ends(const std::vector<float>& ranges) const
   return beams;
 }
 
+// Ends of the last scan's beams where an earlier one may have had an end, too. Others tell nothing, but would hold the
+// robot back where something is known. count: of all beams that end.
+std::vector<BeamEnd> GridSlam::comparable_ends(std::size_t& count) const {
+  const Particle& particle = particles_[best()];
+  std::vector<RegisteredScan> earlier;
+  for (int node = particle.node; node >= 0 && earlier.size() < kComparedScans;) {
+    const Node& one = nodes_[static_cast<std::size_t>(node)];
+    earlier.push_back({one.pose, &scans_[static_cast<std::size_t>(one.scan)]});
+    node = one.parent;
+  }
+  const std::vector<char> is_seen = places_.seen_ends({particle.pose, &scans_.back()}, earlier);
+  std::vector<float> ranges = scans_.back();
+  count = beam_ends(ranges).size();
+  for (std::size_t i = 0; i < ranges.size(); ++i)
+    if (is_seen[i] == 0) ranges[i] = 0.0f;
+  return beam_ends(ranges);
+}
+
 void GridSlam::match() {
-  const std::vector<BeamEnd> beams = beam_ends(scans_.back());
+  std::size_t count = 0;
+  const std::vector<BeamEnd> beams = comparable_ends(count);
+  const double share = count == 0 ? 1.0 : static_cast<double>(beams.size()) / static_cast<double>(count);
+  if (count > 0 && share < kLeastShare) return;
   int unmatched = 0;
   for (Particle& particle : particles_) {
     const Match match = matcher_.optimize(particle.map, particle.pose, beams);
-    if (match.score > options_.minimum_score) particle.pose = match.pose;
+    if (match.score > options_.minimum_score * share) particle.pose = match.pose;
     else ++unmatched;
     particle.log_weight += matcher_.log_likelihood(particle.map, particle.pose, beams);
   }
@@ -145,7 +177,7 @@ void GridSlam::count(const Node& node) {
   const auto& ranges = scans_[static_cast<std::size_t>(node.scan)];
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const double range = double{ranges[i]};
-    if (range == 0.0) continue;
+    if (range == 0.0 || range == kNoHit) continue;
     const double angle = node.pose.yaw + bearings_[i];
     const Beam beam{node.pose.x, node.pose.y, std::cos(angle), std::sin(angle)};
     counts_.add(beam, std::min(range, options_.usable_range), range <= options_.usable_range);

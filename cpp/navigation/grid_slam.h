@@ -9,6 +9,7 @@
 #include "planar_pose.h"
 #include "random.h"
 #include "scan_matcher.h"
+#include "seen_places.h"
 
 namespace trundle::navigation {
 
@@ -65,11 +66,13 @@ class GridSlam {
   void resample_if_needed();
   void register_scan();
   std::vector<BeamEnd> beam_ends(const std::vector<float>& ranges) const;
+  std::vector<BeamEnd> comparable_ends(std::size_t& count) const;
   void count(const Node& node);
   void count_new();
 
   SlamOptions options_;
   std::vector<double> bearings_;
+  SeenPlaces places_;
   ScanMatcher matcher_;
   Random random_;
   std::vector<Particle> particles_;

@@ -9,6 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from tests.navigation.house import RANGE_MAX, RESOLUTION, bearings, house_cells, house_map, ranges_at
 
+from trundle.navigation.localization._localization import OccupancyMap
 from trundle.navigation.mapping import _mapping
 from trundle.navigation.mapping.gmapping_settings import GmappingSettings
 
@@ -82,6 +83,23 @@ def test_a_house_is_mapped_and_the_drift_of_the_odometry_is_removed() -> None:
     assert (true == 0)[cells == 0].mean() > 0.97
     assert (cells == 100)[0, 5:-5].mean() > 0.8  # the wall's cells themselves
     assert slam.entropy <= math.log(10) + 1e-9
+
+
+def test_a_wall_that_leaves_the_scan_does_not_hold_the_robot_back() -> None:
+    """A hall 10 m wide, and a laser of 114° that reaches 8 m; the odometry is right."""
+    cells = np.zeros((200, 400), dtype=np.int8)
+    cells[[0, -1], :] = cells[:, [0, -1]] = 100
+    hall = OccupancyMap(cells, resolution=RESOLUTION, x=0.0, y=0.0)
+    angles = np.linspace(-1.0, 1.0, 180)
+    used = settings(xmax=20.0, ymax=10.0, particles=5, linearUpdate=0.5)
+    slam = _mapping.GridSlam(used.slam_options(range_max_m=8.0), angles, (3.0, 5.0, 0.0), seed=1)
+    random = np.random.default_rng(1)
+    poses = [(3.0 + 0.5 * step, 5.0, 0.0) for step in range(20)]
+    for step, pose in enumerate(poses):
+        ranges = np.array([hall.cast_ray(*pose[:2], angle, 9.0) for angle in angles])
+        slam.process(pose, 0.1 * step, np.where(ranges > 8.0, math.inf, ranges + random.normal(0.0, 0.01, 180)))
+
+    assert slam.pose[:2] == pytest.approx(poses[-1][:2], abs=0.5)
 
 
 def test_scans_are_used_after_enough_motion_turn_or_time() -> None:
