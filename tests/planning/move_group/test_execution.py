@@ -53,6 +53,14 @@ def test_a_trajectory_that_begins_elsewhere_is_refused(graph: Any) -> None:
     assert result.result.error_code.val == _CONTROL_FAILED
 
 
+@pytest.mark.parametrize(("trajectory", "code"), [({}, _CONTROL_FAILED), (_trajectory(), 1)], ids=["none", "no points"])
+def test_an_empty_trajectory_ends_at_once(graph: Any, trajectory: dict[str, Any], code: int) -> None:
+    """A program that executes a plan that was not found has an answer, as from MoveIt."""
+    start_arm(graph)
+
+    assert send(graph, "execute_trajectory", _EXECUTE, {"trajectory": trajectory}).result.error_code.val == code
+
+
 def test_joints_without_a_controller_are_named(graph: Any, capfd: pytest.CaptureFixture[str]) -> None:
     start_arm(graph, controller_list=[{"name": "half", "type": "interpolate", "joints": ARM[:3]}])
 

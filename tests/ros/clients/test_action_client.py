@@ -167,3 +167,25 @@ def test_goals_that_replace_each_other_at_once_all_have_a_result() -> None:
         graph.ready(node)
 
         assert sorted(ended, key=int) == [str(number) for number in range(20)]
+
+
+def test_a_goal_whose_work_fails_has_a_result(capfd: pytest.CaptureFixture[str]) -> None:
+    """A client that waits for it would wait forever."""
+
+    async def execute(_goal: Any, accept: Callable[[], None]) -> ActionResult:
+        accept()
+        raise KeyError("left")
+
+    with running_graph() as graph:
+        node = graph.node("/driver")
+        ActionServer(node, "/drive", TYPE, execute)
+        results: list[Any] = []
+        node.subscribe("/drive/result", f"{TYPE}ActionResult", results.append)
+        goals = node.advertise("/drive/goal", f"{TYPE}ActionGoal")
+        until(lambda: goals.has_subscribers)
+        goals.publish({"goal_id": {"id": "one"}})
+        until(lambda: results)
+        graph.ready(node)
+
+    assert (results[0].status.status, results[0].status.text) == (4, "KeyError: 'left'")
+    assert "/drive: KeyError: 'left'" in capfd.readouterr().err

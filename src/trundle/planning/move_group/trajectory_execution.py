@@ -90,15 +90,18 @@ class TrajectoryExecution:
             self._node.log.error("Cannot push a new trajectory while another is being executed")
             return Outcome.ABORTED
         moving = [name for name in path.joints if self._is_actuated(name)]
+        if not path.joints:
+            return self._refuse_no_joints()
+        if len(path.times_s) == 0:
+            return Outcome.SUCCEEDED
         base = self._moved_base(path)
         if base:
             self._node.log.error(f"no controller takes trajectories of planar and floating joints: {', '.join(base)}")
             return Outcome.ABORTED
-        if len(path.times_s) == 0 or path.duration_s == 0.0:
+        if path.duration_s == 0.0:
             return Outcome.SUCCEEDED  # nothing to do, and controllers refuse points that are due at once
         if not moving:
-            self._node.log.warn("The trajectory to execute specifies no joints")
-            return Outcome.ABORTED
+            return self._refuse_no_joints()
         controllers = await self._choose(moving)
         if controllers is None or not await self._starts_here(path):
             return Outcome.ABORTED
@@ -110,6 +113,10 @@ class TrajectoryExecution:
                 return Outcome.PREEMPTED
             self._running.cancel()
             raise
+
+    def _refuse_no_joints(self) -> Outcome:
+        self._node.log.warn("The trajectory to execute specifies no joints")
+        return Outcome.ABORTED
 
     def _is_actuated(self, name: str) -> bool:
         if not self._model.has_joint(name):

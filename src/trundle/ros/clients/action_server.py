@@ -81,6 +81,7 @@ class ActionServer:
         cancels = node.subscribe(
             f"{name}/cancel", "actionlib_msgs/GoalID", self._on_cancel, queue_size=None, on_loop=True
         )
+        self._name = name
         self._endpoints = (self._result, self._feedback, self._status, goals, cancels)
         self._status_task = node.loop.spawn(self._publish_status_loop())
 
@@ -144,15 +145,21 @@ class ActionServer:
                 self._publish_status()
 
         goal.is_running = True
+        fault: Exception | None = None
         try:
             result = ActionResult(status="recalled") if goal.is_recalled else await self._work(message, accept)
         except asyncio.CancelledError:
             result = ActionResult(status="preempted")
+        except Exception as error:  # raised again below: a goal without a result would be waited for
+            fault, result = error, ActionResult(status="aborted", text=f"{type(error).__name__}: {error}")
         goal.status, goal.text = _NUMBERS[result.status], result.text
         goal.ended_ns = self._node.clock.now_ns()
         self._publish_status()
         header = {"stamp": goal.ended_ns}
         self._result.publish({"header": header, "status": _status(goal), "result": result.result})
+        if fault is not None:
+            self._node.log.error(f"{self._name}: {goal.text}")
+            raise fault
 
     async def _publish_status_loop(self) -> None:
         while not self._node.closed.is_set():
