@@ -9,7 +9,8 @@ namespace trundle::navigation {
 namespace {
 
 constexpr double kLeastShare = 0.2;  // share of the standard deviation; its square is nearly zero for short motions
-constexpr double kMinTranslation = 0.01;  // [m]; below, the direction of the motion is noise
+constexpr double kMinTranslation = 0.01;   // [m]; below, the direction of the motion is noise
+constexpr double kPivotTranslation = 0.1;  // [m]; below, a direction that no arc of the turn has is a slip
 
 double square(double value) { return value * value; }
 
@@ -48,7 +49,11 @@ void OdometryModel::move(std::vector<Particle>& particles, const PlanarPose& fro
   }
   const double first = translation < kMinTranslation ? 0.0 : angle_difference(std::atan2(dy, dx), from.yaw);
   const double second = angle_difference(rotation, first);
-  const double first_square = square(turn(first)), second_square = square(turn(second));
+  double first_square = square(turn(first)), second_square = square(turn(second));
+  if (translation < kPivotTranslation && first_square + second_square > square(rotation)) {
+    first_square = 0.0;
+    second_square = square(rotation);
+  }
   const double first_sigma = sigma(a1 * first_square + a2 * square(translation));
   const double forward_sigma = sigma(a3 * square(translation) + a4 * first_square + a4 * second_square);
   const double second_sigma = sigma(a1 * second_square + a2 * square(translation));

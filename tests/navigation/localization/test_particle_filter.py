@@ -84,6 +84,17 @@ def test_noise_of_the_distance_has_the_models_deviation(kind: int, sigma: float)
     assert particles.particles()[:, 1].std() == pytest.approx(0.0, abs=1e-12)
 
 
+def test_a_slip_aside_in_a_turn_on_the_spot_is_no_large_turn() -> None:
+    """0.02 m aside in a turn of 0.3 rad: by two turns of about 90° each way, the noise would be metres."""
+    particles = ParticleFilter(options(count=20000), house_map(), seed=1)
+    particles.spread((0.0, 0.0, 0.0), NO_SPREAD)
+    particles.move(OdometryModel(DIFF, (0.2, 0.2, 0.2, 0.2, 0.2)), (0.0, 0.0, 0.0), (0.0, -0.02, 0.3))
+
+    x, y, yaw, _ = particles.particles().T
+    assert (x.mean(), y.mean(), yaw.mean()) == pytest.approx((0.0, -0.02, 0.3), abs=0.005)
+    assert (x.std(), y.std(), yaw.std()) == pytest.approx((0.0, 0.027, 0.027), abs=0.01)
+
+
 def test_a_spread_has_the_requested_covariance() -> None:
     covariance = np.array([[0.3, 0.1, 0.0], [0.1, 0.2, 0.0], [0.0, 0.0, 0.05]])
     particles = ParticleFilter(options(count=20000), house_map(), seed=1)
