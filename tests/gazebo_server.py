@@ -1,6 +1,6 @@
 """World behind /gazebo on a graph of its own, for tests."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -34,13 +34,13 @@ class Gazebo:
         self.host = NodeHost(simulator=self.world)
         self.client = Node("/client", loop=loop, master_uri=uri)
 
-    def start(self, distro: str = "noetic", world: str = "") -> None:
-        """Start the server, with an empty world or that of an SDF text."""
+    def start(self, distro: str = "noetic", world: str = "", remappings: Mapping[str, str] | None = None) -> None:
+        """Start the server, with an empty world or that of an SDF text, and remappings of its names."""
         words = ["-u", "-e", "ode"]
         if world:
             (self.folder / "w.world").write_text(world)
             words.append(str(self.folder / "w.world"))
-        self.server = Node("/gazebo", loop=self.loop, master_uri=self.client.master_uri)
+        self.server = Node("/gazebo", loop=self.loop, master_uri=self.client.master_uri, remappings=remappings)
         self.server.profile = DISTROS[distro]
         self.loop.spawn(GazeboServer(self.server, words, self.host).run())
         wait = self.client.wait_for_service("/gazebo/unpause_physics", PATIENCE_S)

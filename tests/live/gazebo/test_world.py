@@ -35,6 +35,19 @@ def test_a_spawned_model_is_at_its_pose_and_falls_when_unpaused(gazebo: Gazebo) 
     assert fallen.success
 
 
+def test_remappings_of_the_server_hold_for_plugins(bare_gazebo: Gazebo) -> None:
+    """As in roscpp, where they are those of the process; mir_gazebo moves its controllers' topics so."""
+    bare_gazebo.start(remappings={"robot/truth": "odom"})
+    plugin = """<plugin name="p" filename="libgazebo_ros_p3d.so"><robotNamespace>/robot</robotNamespace>
+<bodyName>link</bodyName><topicName>truth</topicName></plugin></model>"""
+    assert bare_gazebo.spawn(_BALL.replace("</model>", plugin), "ball").success
+
+    messages = bare_gazebo.subscribe("/odom", "nav_msgs/Odometry")
+    bare_gazebo.call("unpause_physics")
+    until(lambda: messages)
+    assert messages[0].child_frame_id == "link"
+
+
 def test_duplicate_model_name_is_refused_with_gazebos_message(gazebo: Gazebo) -> None:
     gazebo.spawn(_BALL, "ball")
     again = gazebo.spawn(_BALL, "ball")

@@ -101,6 +101,7 @@ class GazeboContents:
             master_uri=graph.master_uri,
             clock=self.clock,
             deliver=lambda callback: self._post(lambda: simulation.inputs.call(callback)),
+            remappings=self._node.remappings,  # of all nodes of the process, as in roscpp
             host=graph.host,
         )
         node.profile = self._node.profile
