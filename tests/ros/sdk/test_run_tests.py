@@ -1,6 +1,7 @@
 """catkin_make run_tests: tests of a package are compiled and run, and their results are written."""
 
 import os
+import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
@@ -22,6 +23,7 @@ if(CATKIN_ENABLE_TESTING)
   target_link_libraries(sums ${catkin_LIBRARIES})
   catkin_add_nosetests(test/test_words.py)
   add_executable(helper EXCLUDE_FROM_ALL test/sums.cpp)
+  add_library(part test/part.cpp)
 endif()
 """
 _SUMS = """\
@@ -37,8 +39,12 @@ int main(int argc, char** argv) {
 }
 """
 _WORDS = """\
+import pathlib
 import unittest
 class Words(unittest.TestCase):
+    def test_a_library_for_tests_is_built_before(self):
+        self.assertTrue((pathlib.Path(__file__).parents[3] / "devel/lib/libpart.so").exists())
+
     def test_upper(self):
         self.assertEqual("a".upper(), "A")
 """
@@ -53,6 +59,7 @@ def test_tests_run_and_a_failed_one_is_in_the_results(tmp_path: Path) -> None:
     (package / "package.xml").write_text("<package><name>tested</name><version>0.1.0</version></package>")
     (package / "CMakeLists.txt").write_text(_CMAKE)
     (package / "test/sums.cpp").write_text(_SUMS)
+    (package / "test/part.cpp").write_text("int part() { return 1; }\n")
     (package / "test/test_words.py").write_text(_WORDS)
     environment = {name: value for name, value in os.environ.items() if name != "CMAKE_PREFIX_PATH"}
 
@@ -69,5 +76,5 @@ def test_tests_run_and_a_failed_one_is_in_the_results(tmp_path: Path) -> None:
 
     results = ET.parse(tmp_path / "build/tested/test_results/tested/gtest-sums.xml").getroot()
     assert (results.get("tests"), results.get("failures")) == ("3", "1"), output
-    assert "Ran 1 test" in output
+    assert re.search(r"Ran 2 tests.*\n\nOK", output), output
     assert (tmp_path / "devel/lib/tested/sums").exists()

@@ -102,7 +102,12 @@ class PackageBuilder:
             yield BuildResult(False, lacks, {"CMake": _cmake_error(text)})
             return
         parallel = [] if jobs is None else ["-j", jobs]
-        code, text = yield from self._run([self._toolchain.ninja, "-C", str(build), "-k", "0", *parallel, *targets])
+        ninja = [self._toolchain.ninja, "-C", str(build), "-k", "0", *parallel]
+        built = ""
+        if is_tested:  # tests run nodes, and load libraries that are built for tests alone
+            _, built = yield from self._run([*ninja, "all"])
+        code, text = yield from self._run([*ninja, *targets])
+        text = built + text
         yield BuildResult(True, lacks, _failures(text) or ({"ninja": text.splitlines()[-1]} if code and text else {}))
 
     def _run(self, command: list[str]) -> Generator[str, None, tuple[int, str]]:
