@@ -114,6 +114,36 @@ void Transformer::transformPose(const std::string& target_frame, const Stamped<P
   out = Stamped<Pose>(transform * static_cast<const Pose&>(in), transform.stamp_, target_frame);
 }
 
+void Transformer::transformQuaternion(const std::string& target_frame, const ros::Time& target_time,
+                                      const Stamped<Quaternion>& in, const std::string& fixed_frame,
+                                      Stamped<Quaternion>& out) const {
+  StampedTransform transform;
+  lookupTransform(target_frame, target_time, in.frame_id_, in.stamp_, fixed_frame, transform);
+  out = Stamped<Quaternion>(transform * static_cast<const Quaternion&>(in), transform.stamp_, target_frame);
+}
+
+void Transformer::transformVector(const std::string& target_frame, const ros::Time& target_time,
+                                  const Stamped<Vector3>& in, const std::string& fixed_frame,
+                                  Stamped<Vector3>& out) const {
+  StampedTransform transform;
+  lookupTransform(target_frame, target_time, in.frame_id_, in.stamp_, fixed_frame, transform);
+  out = Stamped<Vector3>(transform.getBasis() * in, transform.stamp_, target_frame);
+}
+
+void Transformer::transformPoint(const std::string& target_frame, const ros::Time& target_time,
+                                 const Stamped<Point>& in, const std::string& fixed_frame, Stamped<Point>& out) const {
+  StampedTransform transform;
+  lookupTransform(target_frame, target_time, in.frame_id_, in.stamp_, fixed_frame, transform);
+  out = Stamped<Point>(transform * static_cast<const Point&>(in), transform.stamp_, target_frame);
+}
+
+void Transformer::transformPose(const std::string& target_frame, const ros::Time& target_time, const Stamped<Pose>& in,
+                                const std::string& fixed_frame, Stamped<Pose>& out) const {
+  StampedTransform transform;
+  lookupTransform(target_frame, target_time, in.frame_id_, in.stamp_, fixed_frame, transform);
+  out = Stamped<Pose>(transform * static_cast<const Pose&>(in), transform.stamp_, target_frame);
+}
+
 TransformListener::TransformListener(ros::Duration max_cache_time, bool spin_thread)
     : Transformer(true, max_cache_time), listener_(*buffer_, spin_thread) {
   readPrefix();

@@ -13,52 +13,6 @@
 
 namespace tf {
 
-/** Transforms of the last seconds; time 0 is the latest time. */
-class Transformer {
- public:
-  explicit Transformer(bool interpolating = true, ros::Duration cache_time = ros::Duration(10.0));
-  virtual ~Transformer() {}
-
-  void clear() { buffer_->clear(); }
-  // Nothing is extrapolated, with any limit, as in tf since it is built on tf2.
-  void setExtrapolationLimit(const ros::Duration&) {}
-  bool setTransform(const StampedTransform& transform, const std::string& authority = "default_authority");
-  void lookupTransform(const std::string& target_frame, const std::string& source_frame, const ros::Time& time,
-                       StampedTransform& transform) const;
-  void lookupTransform(const std::string& target_frame, const ros::Time& target_time, const std::string& source_frame,
-                       const ros::Time& source_time, const std::string& fixed_frame, StampedTransform& transform) const;
-  /** Wait until a transform is known; false at the timeout. */
-  bool waitForTransform(const std::string& target_frame, const std::string& source_frame, const ros::Time& time,
-                        const ros::Duration& timeout, const ros::Duration& polling_sleep_duration = ros::Duration(0.01),
-                        std::string* error_msg = nullptr) const;
-  bool canTransform(const std::string& target_frame, const std::string& source_frame, const ros::Time& time,
-                    std::string* error_msg = nullptr) const;
-  bool waitForTransform(const std::string& target_frame, const ros::Time& target_time, const std::string& source_frame,
-                        const ros::Time& source_time, const std::string& fixed_frame, const ros::Duration& timeout,
-                        const ros::Duration& polling_sleep_duration = ros::Duration(0.01),
-                        std::string* error_msg = nullptr) const;
-  /** Time of the latest transform between two frames; 0 if there is none. */
-  int getLatestCommonTime(const std::string& source_frame, const std::string& target_frame, ros::Time& time,
-                          std::string* error_string = nullptr) const;
-  bool frameExists(const std::string& frame_id) const { return buffer_->frameExists(frame_id); }
-  bool getParent(const std::string& frame_id, ros::Time time, std::string& parent) const {
-    return buffer_->getParent(frame_id, time, parent);
-  }
-  void getFrameStrings(std::vector<std::string>& ids) const { buffer_->getFrameStrings(ids); }
-  std::string allFramesAsString() const { return buffer_->allFramesAsString(); }
-  ros::Duration getCacheLength() const { return buffer_->getCacheLength(); }
-  boost::shared_ptr<tf2_ros::Buffer> getTF2BufferPtr() { return buffer_; }
-
-  void transformQuaternion(const std::string& target_frame, const Stamped<Quaternion>& in,
-                           Stamped<Quaternion>& out) const;
-  void transformVector(const std::string& target_frame, const Stamped<Vector3>& in, Stamped<Vector3>& out) const;
-  void transformPoint(const std::string& target_frame, const Stamped<Point>& in, Stamped<Point>& out, int = 0) const;
-  void transformPose(const std::string& target_frame, const Stamped<Pose>& in, Stamped<Pose>& out) const;
-
- protected:
-  boost::shared_ptr<tf2_ros::Buffer> buffer_;
-};
-
 /** Transformer that receives /tf and /tf_static. */
 class TransformListener : public Transformer {
  public:
