@@ -77,3 +77,6 @@ foreach(_trundle_name IN ITEMS roscpp rosconsole tf actionlib)
   endforeach()
   list(APPEND ${_trundle_name}_LIBRARIES ${_trundle_boost} Threads::Threads)
 endforeach()
+
+# find_package(Protobuf) after this one finds what writes headers of messages; see modules/FindProtobuf.cmake.
+list(PREPEND CMAKE_MODULE_PATH "${TRUNDLE_SDK}/gazebo/cmake/modules")

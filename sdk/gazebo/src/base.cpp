@@ -98,6 +98,28 @@ void Entity::SetWorldPose(const ignition::math::Pose3d&, bool, bool) {}
 
 Collision::Collision(LinkPtr link) : Entity(link) { type_ |= COLLISION; }
 
+std::vector<double> SurfaceParams::Values() const {
+  const math::Vector3& along = friction_->direction1;
+  return {friction_->MuPrimary(),           friction_->MuSecondary(), along.x, along.y, along.z,
+          collideWithoutContact ? 1.0 : 0.0};
+}
+
+SurfaceParamsPtr Collision::GetSurface() const {
+  if (!is_watched_) {
+    is_watched_ = true;
+    world_->surfaces_.push_back(boost::static_pointer_cast<const Collision>(shared_from_this()));
+  }
+  return surface_;
+}
+
+void Collision::TakeChange(std::vector<std::string>& words, std::vector<double>& numbers) const {
+  const std::vector<double> values = surface_->Values();
+  if (values == surface_->sent_) return;
+  surface_->sent_ = values;
+  words.push_back(GetScopedName());
+  numbers.insert(numbers.end(), values.begin(), values.end());
+}
+
 LinkPtr Collision::GetLink() const { return boost::static_pointer_cast<Link>(parent_); }
 ModelPtr Collision::GetModel() const { return GetLink()->GetModel(); }
 ignition::math::Pose3d Collision::WorldPose() const { return GetLink()->WorldPose() * initial_; }

@@ -143,7 +143,11 @@ void Builder::AddCollision(const LinkPtr& link, const sdf::ElementPtr& sdf) {
     physics::FrictionPyramid& pyramid = *collision->surface_->FrictionPyramid();
     pyramid.mu1_ = ode->Get<double>("mu", 1.0).first;
     pyramid.mu2_ = ode->Get<double>("mu2", 1.0).first;
+    if (ode->HasElement("fdir1")) pyramid.direction1 = ode->Get<ignition::math::Vector3d>("fdir1");
   }
+  if (const sdf::ElementPtr contact = below(below(sdf, "surface"), "contact"))
+    collision->surface_->collideWithoutContact = contact->Get<bool>("collide_without_contact", false).first;
+  collision->surface_->sent_ = collision->surface_->Values();
   if (const sdf::ElementPtr geometry = sdf->FindElement("geometry")) collision->shape_ = MakeShape(collision, geometry);
   link->collisions_.push_back(collision);
   link->AddChild(collision);

@@ -37,6 +37,7 @@ World::World(const std::string& name)
     : name_(name),
       host_(nullptr),
       physics_(boost::make_shared<PhysicsEngine>(this)),
+      sent_surfaces_(-1, 0),
       last_time_ns_(0),
       iterations_(0),
       is_paused_(false),
@@ -98,6 +99,19 @@ void World::Animate() {
   for (const EntityPtr& entity : animated) entity->Animate(time);
 }
 
+void World::SendSurfaces() {
+  constexpr double kPeriod = 0.1;  // [s]
+  const common::Time time = update_info_.simTime;
+  if (surfaces_.empty() || (time >= sent_surfaces_ && (time - sent_surfaces_).Double() < kPeriod)) return;
+  std::vector<std::string> words = {"surfaces"};
+  std::vector<double> numbers;
+  for (const auto& weak : surfaces_)
+    if (const auto collision = weak.lock()) collision->TakeChange(words, numbers);
+  if (numbers.empty()) return;
+  sent_surfaces_ = time;
+  Request(words, numbers);
+}
+
 void World::BeforeStep(int64_t time_ns, int64_t real_ns) {
   if (is_paused_) gzwarn << "a plugin does not pause the simulation; the page and /gazebo/pause_physics do\n";
   is_paused_ = false;
@@ -117,6 +131,7 @@ void World::BeforeStep(int64_t time_ns, int64_t real_ns) {
   event::Events::beforePhysicsUpdate.SignalIn(this, update_info_);
   event::Events::preRender.SignalIn(this);
   for (const LinkPtr& link : weight_changes_) link->ChangeWeight();
+  SendSurfaces();
   ConnectJoints();
 }
 

@@ -1,6 +1,7 @@
 """A world's plugin in C++ that asks for models, gravity and motions, in the ways of Gazebo's tutorials."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -78,3 +79,27 @@ def test_a_world_plugin_sets_a_stage(tmp_path: Path) -> None:
     assert sum("the lift is up" in line for line in lines) == 1, output
     x, y = np.meshgrid(np.arange(200), np.arange(200))
     np.testing.assert_array_equal(np.asarray(Image.open(folder / "frame.png")), np.dstack((x, y, x ^ y)))
+
+
+def test_a_world_plugin_changes_surfaces_and_sends_messages_of_its_own(tmp_path: Path) -> None:
+    """From 0.5 s on a box slides down a slope of 0.3 rad; another falls through it; messages come from .proto files."""
+    try:
+        find_toolchain(os.environ)
+    except UsageError as error:
+        pytest.skip(str(error))
+    folder = tmp_path / "slide"
+    shutil.copytree(_SOURCE.with_name("slide"), folder)
+    _run("shell", "-c", "cmake -S . -B build && cmake --build build", cwd=folder)
+
+    words = ("run", "slide.world", "--headless", "--no-ros", "--duration", "2.1", "--speed", "max")
+    output = _run(*words, cwd=folder, GAZEBO_PLUGIN_PATH=str(folder / "build"))
+
+    number = r" (-?[\d.e-]+)"
+    report = rf"at \d s in world, last 10: keeps{number}{number} slips{number}{number} ghost{number}{number}"
+    places = np.array(re.findall(report, output), dtype=float).reshape(-1, 3, 2)
+    assert len(places) == 2, output
+    slid = 0.5 * 9.8 * np.sin(0.3) * 1.5**2
+    keeps, slips, ghost = (places[1] - places[0]).round(3)
+    assert np.abs(keeps).max() < 0.01
+    np.testing.assert_allclose(slips, [slid * np.cos(0.3), -slid * np.sin(0.3)], rtol=0.02)
+    np.testing.assert_allclose(ghost, [0.0, -0.5 * 9.8 * (2.0**2 - 0.499**2)], rtol=0.01, atol=0.01)

@@ -16,7 +16,8 @@ class Collision : public Entity {
   ModelPtr GetModel() const;
   ShapePtr GetShape() const { return shape_; }
   unsigned int GetShapeType() const { return shape_ ? shape_->GetType() : static_cast<unsigned int>(SHAPE); }
-  SurfaceParamsPtr GetSurface() const { return surface_; }
+  // What a plugin changes in it acts soon.
+  SurfaceParamsPtr GetSurface() const;
   float GetLaserRetro() const { return 0.0f; }
   bool IsPlaceable() const { return !IsStatic(); }
   virtual ignition::math::Pose3d RelativePose() const { return initial_; }
@@ -26,8 +27,13 @@ class Collision : public Entity {
 
  private:
   friend struct Builder;
+  friend class World;
+  // Add the name and values of a surface that has changed.
+  void TakeChange(std::vector<std::string>& words, std::vector<double>& numbers) const;
+
   ShapePtr shape_;
   SurfaceParamsPtr surface_;
+  mutable bool is_watched_ = false;
 };
 
 }  // namespace physics

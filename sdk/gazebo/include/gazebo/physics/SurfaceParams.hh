@@ -2,6 +2,8 @@
 #ifndef GAZEBO_PHYSICS_SURFACEPARAMS_HH_
 #define GAZEBO_PHYSICS_SURFACEPARAMS_HH_
 
+#include <vector>
+
 #include <boost/make_shared.hpp>
 
 #include <gazebo/math/Vector3.hh>
@@ -10,11 +12,12 @@
 namespace gazebo {
 namespace physics {
 
-// Coefficients along two directions, as read from the file; the simulation has no way to change them while it runs, so
-// there are no functions that set them.
+// Coefficients along two directions. What a plugin changes is an edit of the world, at most ten times a second.
 class FrictionPyramid {
  public:
   FrictionPyramid() : mu1_(1.0), mu2_(1.0) {}
+  void SetMuPrimary(double mu) { mu1_ = mu; }
+  void SetMuSecondary(double mu) { mu2_ = mu; }
   double MuPrimary() const { return mu1_; }
   double MuSecondary() const { return mu2_; }
   double GetMuPrimary() const { return mu1_; }
@@ -29,15 +32,21 @@ class FrictionPyramid {
 
 class SurfaceParams {
  public:
-  SurfaceParams() : friction_(boost::make_shared<physics::FrictionPyramid>()), collideWithoutContact(false) {}
+  SurfaceParams() : collideWithoutContact(false), friction_(boost::make_shared<physics::FrictionPyramid>()) {}
   virtual ~SurfaceParams() {}
   FrictionPyramidPtr FrictionPyramid() const { return friction_; }
 
- private:
-  FrictionPyramidPtr friction_;
-
- public:
+  // Whether contacts are seen, and have no force.
   bool collideWithoutContact;
+
+ private:
+  friend class Collision;
+  friend struct Builder;
+  // What the simulation has: coefficients, direction, whether there is no force.
+  std::vector<double> Values() const;
+
+  FrictionPyramidPtr friction_;
+  std::vector<double> sent_;
 };
 
 }  // namespace physics

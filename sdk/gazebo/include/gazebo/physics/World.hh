@@ -91,11 +91,13 @@ class World : public boost::enable_shared_from_this<World> {
 
  private:
   friend struct Builder;
+  friend class Collision;
   friend class Entity;
   friend class Joint;
   friend class Link;
   friend class PhysicsEngine;
   void Animate();
+  void SendSurfaces();
   std::string name_;
   const TrundleGazeboHost* host_;
   PhysicsEnginePtr physics_;
@@ -104,6 +106,9 @@ class World : public boost::enable_shared_from_this<World> {
   Entity_V animated_;
   // Whose weight is added or taken before each step.
   Link_V weight_changes_;
+  // Whose surface a plugin has, and may change.
+  std::vector<boost::weak_ptr<const Collision>> surfaces_;
+  common::Time sent_surfaces_;
   common::SphericalCoordinatesPtr spherical_coordinates_;
   common::Time real_time_, start_time_;
   common::UpdateInfo update_info_;

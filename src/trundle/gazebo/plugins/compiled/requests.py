@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from trundle.base.diagnostics import UsageError
 from trundle.robots.description import LoadedDescription, load, load_text
-from trundle.robots.model import Joint, JointAxis, JointType, Model
+from trundle.robots.model import Collision, Joint, JointAxis, JointType, Link, Model
 from trundle.robots.packages import Packages
 from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose
@@ -75,6 +75,38 @@ def _set_gravity(sim: Simulation, words: Sequence[str], numbers: Sequence[float]
     sim.edit(replace(sim.world, physics=replace(sim.world.physics, gravity=(x, y, z))))
 
 
+def _set_surfaces(sim: Simulation, words: Sequence[str], numbers: Sequence[float]) -> None:
+    """Change contact parameters of collisions `model::link::collision`: six numbers for each.
+
+    They are two coefficients of friction, the first direction, and whether contacts have no force.
+    """
+    if not all(map(math.isfinite, numbers)):
+        raise UsageError(f"the surface of {', '.join(words)}: {[*numbers]}; these are finite numbers")
+    changes: dict[tuple[str, str, str], tuple[float, ...]] = {}
+    for index, name in enumerate(words):
+        _, link_name, collision_name = name.rsplit("::", 2)
+        changes[name.split("::", 1)[0], link_name, collision_name] = tuple(numbers[6 * index : 6 * index + 6])
+
+    def changed(model: Model, link: Link, collision: Collision) -> Collision:
+        values = changes.get((model.name, link.name.rpartition("::")[2], collision.name))
+        if values is None:
+            return collision
+        mu, mu2, x, y, z, is_ghost = values
+        surface = replace(collision.surface, mu=mu, mu2=mu2, fdir1=(x, y, z), collide_without_contact=bool(is_ghost))
+        return replace(collision, surface=surface)
+
+    def with_surfaces(model: Model, link: Link) -> Link:
+        return replace(link, collisions=tuple(changed(model, link, collision) for collision in link.collisions))
+
+    models = tuple(
+        replace(model, links=tuple(with_surfaces(model, link) for link in model.links))
+        if any(name == model.name for name, _, _ in changes)
+        else model
+        for model in sim.world.models
+    )
+    sim.edit(replace(sim.world, models=models))
+
+
 def _insert(sim: Simulation, words: Sequence[str], numbers: Sequence[float]) -> None:
     """Add the models of a text, at a pose if there is one."""
     folder = Path(sim.world.at.file).parent
@@ -124,6 +156,7 @@ _REQUESTS: Mapping[str, _Request] = {
     "attach": _attach,
     "detach": _detach,
     "gravity": _set_gravity,
+    "surfaces": _set_surfaces,
     "step_size": _set_step_size,
     "insert": _insert,
     "insert_file": _insert_file,

@@ -1,1 +1,1 @@
-#error "Trundle's kit has no friction that changes while the simulation runs: set <mu>, <mu2> and <fdir1> in the model"
+#error "Trundle's kit has no contact of ODE: SurfaceParams::FrictionPyramid() sets friction, at most ten times a second"
