@@ -48,6 +48,7 @@ _DEFAULTS: dict[str, Any] = {
 _JUDGE = """<sdf version="1.6"><model name="judge"><static>1</static><pose>0 0 -50 0 0 0</pose><link name="l"/>
 <plugin name="judge" filename="libjudge_navigation.so"><job>{job}</job><out>{out}</out></plugin></model></sdf>"""
 _SPAWN = '<node pkg="gazebo_ros" type="spawn_model" name="judge" args="-sdf -file {file} -model judge -z -50"/>'
+_RECORD = '<node pkg="rosbag" type="record" name="record_map" args="-O {bag} {topic}"/>'
 _MAP_SERVER = '<node pkg="map_server" type="map_server" name="map_server" args="{map}"/>'
 _TIMEOUT_S = 1500.0
 _SUCCEEDED = 3
@@ -112,14 +113,16 @@ def _launch(
     judge.write_text(_JUDGE.format(job=job_file, out=out))
     tags = "".join(_include(words.replace("{map}", str(options["map"]))) for words in [*case["world"], *files])
     launch = folder / f"{name}.launch"
-    more = case["tags"] + (_MAP_SERVER.format(map=options["map"]) if job and case["map_server"] else "")
+    more = case["tags"]
+    if job is None:
+        more += _RECORD.format(bag=folder / f"{name}.bag", topic=case["map_topic"])
+    elif case["map_server"]:
+        more += _MAP_SERVER.format(map=options["map"])
     launch.write_text(f"<launch>{tags}{more}{_SPAWN.format(file=judge)}</launch>")
     paths = [str(checkouts / repository) for repository in case["repositories"]]
     variables = {"ROS_PACKAGE_PATH": ":".join(paths), "TRUNDLE_PLUGIN_PATH": str(_PLUGINS), "ROS_HOME": str(folder)}
     command = [sys.executable, "-m", "trundle", "launch", str(launch), "--headless", "--speed", "max", "--port", "0"]
     command += ["--lenient", "--duration", str(limit_s + 5), "--no-summary"]
-    if job is None:
-        command += ["--record", str(folder / f"{name}.bag")]
     log = Path(os.environ.get("LOGS", folder)) / f"{name}.log"
     with log.open("w") as file:
         environment = {**os.environ, **variables, **case["env"]}
