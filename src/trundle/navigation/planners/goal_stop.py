@@ -22,6 +22,8 @@ class StopLimits(Protocol):
 
 
 Velocity = tuple[float, float, float]
+_LEAVING = 1.5
+"""Distance at which a robot has left the goal, in tolerances: localization moves a little while it turns there."""
 
 
 class GoalStop:
@@ -41,20 +43,21 @@ class GoalStop:
         self._stopped_speed = stopped_speed
         self._stopped_turn = stopped_turn
         self._is_latched = False
-        self._is_turning = False
+        self._is_near = self._is_turning = False
 
     def reset(self, *, is_new_goal: bool) -> None:
         """Begin a plan."""
-        self._is_turning = False
+        self._is_near = self._is_turning = False
         if is_new_goal or not self._limits.latch_xy_goal_tolerance:
             self._is_latched = False
 
     def is_at_position(self, pose: Pose2D, goal: Pose2D) -> bool:
-        """True within the tolerance of the goal's position; with a latch, from the first time on."""
-        is_near = math.hypot(goal.x - pose.x, goal.y - pose.y) <= self._limits.xy_goal_tolerance
-        if is_near and self._limits.latch_xy_goal_tolerance:
+        """True within the tolerance of the goal's position, until it is left; with a latch, from the first time on."""
+        distance, tolerance = math.hypot(goal.x - pose.x, goal.y - pose.y), self._limits.xy_goal_tolerance
+        self._is_near = distance <= (_LEAVING if self._is_near else 1.0) * tolerance
+        if self._is_near and self._limits.latch_xy_goal_tolerance:
             self._is_latched = True
-        return is_near or self._is_latched
+        return self._is_near or self._is_latched
 
     def is_reached(self, pose: Pose2D, goal: Pose2D, velocity: Velocity) -> bool:
         """True if the robot stands at the goal."""

@@ -1,0 +1,37 @@
+"""The end of a plan: when the robot is at the goal."""
+
+from typing import Any
+
+import pytest
+
+from trundle.navigation.planners.goal_stop import GoalStop
+from trundle.navigation.planners.interfaces import Pose2D
+from trundle.navigation.planners.trajectory_planner import TrajectorySettings
+
+GOAL = Pose2D(1.0, 0.0, 0.0)
+
+
+def stop(**limits: Any) -> GoalStop:
+    node: Any = None
+    settings = TrajectorySettings(xy_goal_tolerance=0.1, yaw_goal_tolerance=0.1, **limits)
+    return GoalStop(node, settings, stopped_speed=0.01, stopped_turn=0.01)
+
+
+@pytest.mark.parametrize(("is_latched", "at_last"), [(False, False), (True, True)])
+def test_a_robot_at_the_goal_stays_there_while_its_localization_jitters(is_latched: bool, at_last: bool) -> None:
+    """Otherwise it turns to the goal's direction and back to the way, again and again."""
+    goal_stop = stop(latch_xy_goal_tolerance=is_latched)
+
+    there = [
+        goal_stop.is_at_position(Pose2D(1.0 - beside, 0.0, 2.0), GOAL) for beside in (0.12, 0.09, 0.11, 0.14, 0.16)
+    ]
+
+    assert there == [False, True, True, True, at_last]
+
+
+def test_a_new_goal_is_reached_within_the_tolerance_alone() -> None:
+    goal_stop = stop()
+    assert goal_stop.is_reached(GOAL, GOAL, (0.0, 0.0, 0.0))
+    goal_stop.reset(is_new_goal=True)
+
+    assert not goal_stop.is_at_position(Pose2D(1.12, 0.0, 0.0), GOAL)
