@@ -95,8 +95,9 @@ NodeHandle::NodeHandle(const NodeHandle& parent, const std::string& ns, const M_
       remappings_(parent.remappings_),
       unresolved_remappings_(parent.unresolved_remappings_),
       queue_(parent.queue_) {
+  // Within another namespace, a name may begin with a digit.
+  construct(ns.empty() || ns[0] == '/' || ns[0] == '~' ? ns : names::append(namespace_, ns));
   initRemappings(remappings);
-  construct(ns);
   unresolved_namespace_ = ns;
 }
 

@@ -163,8 +163,9 @@ void Subscription::handleMessage(const SerializedMessage& message, const boost::
     const std::lock_guard<std::mutex> lock(mutex_);
     queues = queues_;
   }
-  // Callbacks that may change the message get copies, unless nothing else uses it.
-  const bool copies = queues.size() > 1 || message.message;
+  // Callbacks that may change the message get copies, unless there is one: it gets a publisher's own object, as in
+  // roscpp.
+  const bool copies = queues.size() > 1;
   std::vector<std::pair<const std::type_info*, std::shared_ptr<LazyMessage>>> by_type;
   for (const auto& queue : queues) {
     const std::type_info& type = queue->helper->getTypeInfo();

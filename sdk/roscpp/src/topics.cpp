@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "node.h"
+#include "ros/exceptions.h"
 #include "ros/init.h"
 #include "ros/this_node.h"
 
@@ -41,6 +42,14 @@ bool callMaster(const char* method, const std::string& topic, const std::string*
   return node::callMaster(method, arguments, payload, type != nullptr);
 }
 
+/** Refuse options without a type of messages, as those of a message that is filled by hand may be. */
+void checkType(const std::string& topic, const std::string& datatype, const std::string& md5sum, bool is_any_allowed) {
+  for (const std::string& value : {datatype, md5sum})
+    if (value.empty() || (value == "*" && !is_any_allowed))
+      throw InvalidParameterException("topic [" + topic + "] needs a datatype and an md5sum, not [" + datatype +
+                                      "] and [" + md5sum + "]");
+}
+
 std::vector<std::string> texts(const XmlRpc::XmlRpcValue& list) {
   std::vector<std::string> result;
   if (list.getType() != XmlRpc::XmlRpcValue::TypeArray) return result;
@@ -53,6 +62,7 @@ std::vector<std::string> texts(const XmlRpc::XmlRpcValue& list) {
 
 std::shared_ptr<Publication> advertise(const AdvertiseOptions& options,
                                        const boost::shared_ptr<Publication::Callbacks>& callbacks) {
+  checkType(options.topic, options.datatype, options.md5sum, false);
   State& s = state();
   const std::lock_guard<std::mutex> registering(s.registering);
   std::shared_ptr<Publication> publication = find(s.publications, options.topic);
@@ -104,6 +114,9 @@ void unadvertise(const std::shared_ptr<Publication>& publication,
 }
 
 std::shared_ptr<Subscription> subscribe(const SubscribeOptions& options) {
+  checkType(options.topic, options.datatype, options.md5sum, true);
+  if (!options.helper)
+    throw InvalidParameterException("the subscriber of topic [" + options.topic + "] has no callback");
   State& s = state();
   const std::lock_guard<std::mutex> registering(s.registering);
   std::shared_ptr<Subscription> subscription = find(s.subscriptions, options.topic);

@@ -115,7 +115,8 @@ void onMutable(const std_msgs::Int32Ptr& m) {
   m->data += 1;
   changed = m->data;
 }
-const void* seen = nullptr;
+const void *seen = nullptr, *seen_mutable = nullptr;
+void onOnlyMutable(const std_msgs::Int32Ptr& m) { seen_mutable = m.get(); }
 void onSame(const geometry_msgs::PoseStampedConstPtr& m) { seen = m.get(); }
 
 void checkTopics(ros::NodeHandle& n) {
@@ -145,6 +146,21 @@ void checkTopics(ros::NodeHandle& n) {
   poses.publish(pose);
   CHECK(waitFor([] { return seen != nullptr; }));
   CHECK(seen == pose.get());
+
+  // Also the only one of a topic that may change it.
+  ros::Publisher numbers = n.advertise<std_msgs::Int32>("own_numbers", 1);
+  const ros::Subscriber only = n.subscribe("own_numbers", 1, onOnlyMutable);
+  const std_msgs::Int32Ptr own = boost::make_shared<std_msgs::Int32>();
+  numbers.publish(own);
+  CHECK(waitFor([] { return seen_mutable != nullptr; }));
+  CHECK(seen_mutable == own.get());
+
+  ros::AdvertiseOptions any("any", 1, "*", "std_msgs/Int32", "");
+  try {
+    n.advertise(any);
+    CHECK(!"a type is needed");
+  } catch (const ros::InvalidParameterException&) {
+  }
 
   same.shutdown();
   CHECK(!same && same.getNumPublishers() == 0 && poses.getNumSubscribers() == 0);
@@ -276,6 +292,8 @@ void checkCachedParents(ros::NodeHandle& n) {
   ros::M_string remappings;
   remappings["fruit"] = "apple";
   const ros::NodeHandle orchard("tree", remappings);
+  const ros::NodeHandle second(n, "2"), inner(ros::NodeHandle(n, "base", {{"sub", "other"}}), "sub");
+  CHECK(second.resolveName("x") == "/2/x" && inner.resolveName("x") == "/base/other/x");
   std::string key;
   n.setParam("fruit", 1);
   CHECK(!orchard.searchParam("fruit", key));
