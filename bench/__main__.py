@@ -18,6 +18,7 @@ from bench.table import Row, print_table
 BENCHES = {
     "graph": "topics against rospy: messages a second, ages, start of a node",
     "roscpp": "C++ nodes against Debian's roscpp: messages a second, ages, start; compiling a node",
+    "cpp_plugin": "a C++ plugin at every step of the RP2W, against the RP2W without it",
     "descriptions": "reading URDF and SDF against other readers",
     "commands": "trundle check and xacro against ROS' tools",
     "step": "stepping the RP2W against the engine's bare loop",
