@@ -199,7 +199,9 @@ class LaunchSession:
         node = Node("/record", loop=graph.loop, master_uri=graph.master_uri, host=graph.host)
         self._resources.callback(lambda: graph.loop.run(node.shutdown()))
         graph.loop.run(follow_time(node))
-        options = RecorderOptions(all_topics=True, path=file, without_types=self._options.record_without)
+        options = RecorderOptions(
+            all_topics=True, path=file, without_types=self._options.record_without, without_copies=True
+        )
         recorder = Recorder(node, options, log=node.log.debug, on_failure=self._report_recording_failure)
         recorder.start()
         self._resources.callback(recorder.stop)

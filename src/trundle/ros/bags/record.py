@@ -19,6 +19,7 @@ from ..xmlrpc.rpc_client import call_value
 from ..xmlrpc.xmlrpc_text import FaultError
 from .bag import BagConnection, BagMessage, BagWriter, recording_failure
 from .files import create_bag, lock_bag
+from .step_recorder import compressed_copies
 
 _FLUSH_S = 1.0
 """Interval between flushes [s]; SIGKILL loses at most the messages of this time."""
@@ -42,6 +43,8 @@ class RecorderOptions:
     """Regular expression of topics to exclude."""
     without_types: frozenset[str] = frozenset()
     """Message types to exclude, except of topics listed by name."""
+    without_copies: bool = False
+    """Leave out compressed images whose raw ones are published, too; see `compressed_copies`."""
     of_node: str | None = None
     """Record all topics this node subscribes to."""
     path: Path | None = None
@@ -172,7 +175,8 @@ class Recorder:
             topics = await call_value(uri, "getSubscriptions", self._node.name)
         else:
             topics = await self._node.master.call("getPublishedTopics", "")
-        return [topic for topic, kind in topics if kind not in self._options.without_types]
+        copies = compressed_copies(topics) if self._options.without_copies else frozenset[str]()
+        return [topic for topic, kind in topics if kind not in self._options.without_types and topic not in copies]
 
     def _is_selected(self, topic: str) -> bool:
         if topic in self._subscriptions or (self._excluded is not None and self._excluded.fullmatch(topic)):

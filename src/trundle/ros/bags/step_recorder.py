@@ -1,6 +1,6 @@
 """Records this process's publishers per simulation step, with bags identical to the byte."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from ..messages.raw_message import Message
@@ -12,10 +12,23 @@ from .files import create_bag, lock_bag
 _NAME = "/record"
 _WALL_TIME_TOPICS = ("/rosout", "/rosout_agg")
 """Topics that are left out: their messages at the start of nodes have wall time."""
+_IMAGE, _COMPRESSED_IMAGE, _COMPRESSED = "sensor_msgs/Image", "sensor_msgs/CompressedImage", "/compressed"
+
+
+def compressed_copies(topics: Iterable[tuple[str, str]]) -> frozenset[str]:
+    """Return those of (topic, type) that are IMAGE/compressed beside an IMAGE, as image_transport publishes them."""
+    types = dict(topics)
+    return frozenset(
+        topic
+        for topic, kind in types.items()
+        if kind == _COMPRESSED_IMAGE
+        and topic.endswith(_COMPRESSED)
+        and types.get(topic.removesuffix(_COMPRESSED)) == _IMAGE
+    )
 
 
 class StepRecorder:
-    """Attaches to every publisher of a loop; messages of one step are written in a fixed order."""
+    """Attaches to every publisher of a loop but `compressed_copies`; messages of a step are in a fixed order."""
 
     is_raw = True
     needs_every_message = False
@@ -121,8 +134,13 @@ class StepRecorder:
             self._attach(publisher)
 
     def _attach(self, publisher: LocalPublisher) -> None:
-        if publisher.topic not in _WALL_TIME_TOPICS and publisher.type not in self._without_types:
-            publisher.attach(self, _NAME)
+        if publisher.topic in _WALL_TIME_TOPICS or publisher.type in self._without_types:
+            return
+        if publisher.type == _COMPRESSED_IMAGE:
+            others = [(one.topic, one.type) for one in self._local.publishers]
+            if publisher.topic in compressed_copies(others):
+                return
+        publisher.attach(self, _NAME)
 
 
 def _connection(publisher: LocalPublisher) -> BagConnection:

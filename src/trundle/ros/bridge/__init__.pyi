@@ -8,8 +8,10 @@ from .frame_names import (
     sensor_topic as sensor_topic,
 )
 from .image_messages import (
+    compressed_image as compressed_image,
     depth_image as depth_image,
     image_encoder as image_encoder,
+    is_compressible as is_compressible,
     point_cloud_encoder as point_cloud_encoder,
 )
 from .instrument_topics import make_sensor_topics as make_sensor_topics

@@ -1,9 +1,12 @@
 """Images and point clouds as messages, without their headers."""
 
-from collections.abc import Callable
+import io
+from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 
 from trundle.sim.render import colored_points
 from trundle.sim.sensors import CameraReading, CameraSensor, pixels_in
@@ -12,11 +15,32 @@ _FLOAT32 = 7
 """sensor_msgs/PointField.FLOAT32"""
 _KELVIN_STEP = 0.01
 """Unit of gz's thermal cameras [K]."""
+_JPEG_QUALITY = 80
+"""Default of image_transport's plugin `compressed` [%]."""
+_CHANNELS = {"mono8": (0,), "rgb8": (0, 1, 2), "bgr8": (2, 1, 0)}
+"""Encoding that has a compressed image → its channels as grey or RGB."""
 
 
 def image_encoder(format_: str) -> Callable[[CameraReading], dict[str, object]]:
     """Return the function that makes color sensor_msgs/Image in one of SDF's pixel formats."""
     return lambda reading: _image(*pixels_in(format_, reading.rgb))
+
+
+def is_compressible(format_: str) -> bool:
+    """True for the pixel formats of SDF whose images `compressed_image` takes."""
+    return pixels_in(format_, np.zeros((2, 2, 3), np.uint8))[1] in _CHANNELS
+
+
+def compressed_image(image: Mapping[str, Any]) -> dict[str, object]:
+    """sensor_msgs/CompressedImage (JPEG) of a sensor_msgs/Image in mono8, rgb8 or bgr8, as by image_transport."""
+    encoding = image["encoding"]
+    channels = _CHANNELS[encoding]
+    pixels = image["data"].reshape(image["height"], image["width"], len(channels))
+    flat = pixels[..., 0] if len(channels) == 1 else pixels[..., channels]
+    out = io.BytesIO()
+    Image.fromarray(np.ascontiguousarray(flat)).save(out, "jpeg", quality=_JPEG_QUALITY)
+    kind = "" if len(channels) == 1 else "bgr8"
+    return {"format": f"{encoding}; jpeg compressed {kind}", "data": np.frombuffer(out.getvalue(), np.uint8)}
 
 
 def depth_image(reading: CameraReading) -> dict[str, object]:

@@ -1,11 +1,13 @@
 """Sensor plugins of gazebo_ros: their topics, frames and readings."""
 
+import io
 import math
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import pytest
+from PIL import Image
 from tests.gazebo_server import Gazebo, until
 
 _INERTIA = "<inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia>"
@@ -108,6 +110,40 @@ def test_a_camera_has_the_topics_frame_and_calibration_of_its_plugin(gazebo: Gaz
     assert (info.K[2], info.K[5], info.P[2], info.P[6]) == (16.5, 9.0, 16.5, 9.0)
     assert info.P[3] == pytest.approx(-0.07 * focal)
     assert list(info.D) == pytest.approx([0.01, 0, 0, 0, 0])
+
+
+@pytest.mark.parametrize(
+    ("pixels", "format_", "channels"),
+    [
+        ("R8G8B8", "rgb8; jpeg compressed bgr8", (0, 1, 2)),
+        ("B8G8R8", "bgr8; jpeg compressed bgr8", (2, 1, 0)),
+        ("L8", "mono8; jpeg compressed ", (0,)),
+    ],
+)
+def test_a_camera_publishes_compressed_images_as_image_transport(
+    gazebo: Gazebo, pixels: str, format_: str, channels: tuple[int, ...]
+) -> None:
+    """They show what the raw ones do, within what JPEG loses."""
+    camera = _CAMERA.replace("<image>", f"<image><format>{pixels}</format>")
+    _spawn_sensors(gazebo, _sensor("camera", camera, "camera", "<cameraName>front</cameraName>"))
+    compressed = _first_message(gazebo, "/front/image_raw/compressed", "sensor_msgs/CompressedImage")
+    raw = _first_message(gazebo, "/front/image_raw", "sensor_msgs/Image")
+
+    assert compressed.format == format_
+    assert compressed.header.stamp.sec + compressed.header.stamp.nanosec > 0
+    picture = np.asarray(Image.open(io.BytesIO(bytes(compressed.data)))).reshape(24, 32, -1)
+    wanted = np.asarray(raw.data, np.uint8).reshape(24, 32, -1)[..., channels]
+    assert np.abs(picture.astype(int) - wanted).mean() < 4.0
+
+
+def test_deep_images_are_not_compressed(gazebo: Gazebo) -> None:
+    """As image_transport, which compresses eight bits."""
+    camera = _CAMERA.replace("<image>", "<image><format>L16</format>")
+    _spawn_sensors(gazebo, _sensor("camera", camera, "camera", "<cameraName>front</cameraName>"))
+    _first_message(gazebo, "/front/image_raw", "sensor_msgs/Image")
+
+    topics = dict(gazebo.loop.run(gazebo.client.master.call("getTopicTypes")))
+    assert "/front/image_raw/compressed" not in topics
 
 
 @pytest.mark.parametrize(

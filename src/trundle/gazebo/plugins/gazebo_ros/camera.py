@@ -5,9 +5,10 @@ from typing import Any
 
 from trundle.robots.parameters import TagParameters
 from trundle.ros import Option, Options, ReconfigureServer
-from trundle.ros.bridge import camera_info_message, image_encoder
+from trundle.ros.bridge import camera_info_message, image_encoder, is_compressible
 from trundle.sim.sensors import CameraReading, CameraSensor
 
+from .image_publisher import ImagePublisher
 from .plugin_names import PluginNames
 from .sensor_publisher import SensorPublisher
 
@@ -16,7 +17,7 @@ _SIDES = ["left", "right"]
 
 
 def attach(sensor: CameraSensor, parameters: TagParameters, names: PluginNames) -> None:
-    """Publish images and camera_info.
+    """Publish images, raw and on IMAGE/compressed, and camera_info.
 
     Parameters, with gazebo_ros' defaults: <cameraName> (none), <imageTopicName> image_raw, <cameraInfoTopicName>
     camera_info, <frameName> /world, <updateRate> 0 (the sensor's), and for camera_info alone <Cx>, <Cy>,
@@ -24,7 +25,8 @@ def attach(sensor: CameraSensor, parameters: TagParameters, names: PluginNames) 
     distorted image is not enlarged. A multicamera's <hackBaseline> is the distance of the right camera from the left
     one, by default that of the file.
     """
-    attach_images(sensor, parameters, names, image_encoder(sensor.optics.format))
+    pixels = sensor.optics.format
+    attach_images(sensor, parameters, names, image_encoder(pixels), is_compressible=is_compressible(pixels))
 
 
 def attach_images(
@@ -32,19 +34,21 @@ def attach_images(
     parameters: TagParameters,
     names: PluginNames,
     image: Callable[[CameraReading], dict[str, object]],
+    *,
+    is_compressible: bool = True,
 ) -> None:
     """Publish the messages that a function makes from readings, with the parameters of `attach`."""
     read_border_crop(sensor, parameters)
     frame, rate_hz = names.frame(parameters.text("frameName", "/world")), parameters.number("updateRate", 0.0)
     image_topic = camera_topic(sensor, parameters, "imageTopicName", "image_raw")
-    images = SensorPublisher(names.advertise("sensor_msgs/Image", image_topic), frame, rate_hz=rate_hz)
+    images = ImagePublisher(names, image_topic, frame, image, rate_hz=rate_hz, is_compressible=is_compressible)
     info_topic = camera_topic(sensor, parameters, "cameraInfoTopicName", "camera_info")
     infos = SensorPublisher(names.advertise("sensor_msgs/CameraInfo", info_topic), frame, rate_hz=rate_hz)
     calibration = read_calibration(sensor, parameters)
     parameters.ignore("autoDistortion", "triggerTopicName", "cameraName")
 
     def publish(reading: CameraReading) -> None:
-        images.publish(reading, lambda: image(reading))
+        images.publish(reading)
         infos.publish(reading, lambda: calibration)
 
     sensor.listen(publish, enabled=lambda: images.has_subscribers() or infos.has_subscribers())

@@ -7,11 +7,12 @@ import numpy as np
 
 from trundle.base.diagnostics import UsageError
 from trundle.robots.parameters import TagParameters
-from trundle.ros.bridge import depth_image, image_encoder, point_cloud_encoder
+from trundle.ros.bridge import depth_image, image_encoder, is_compressible, point_cloud_encoder
 from trundle.sim.render import clip_depths
 from trundle.sim.sensors import CameraReading, CameraSensor, DepthCameraSensor
 
 from .camera import camera_topic, offer_rate, read_border_crop, read_calibration
+from .image_publisher import ImagePublisher
 from .plugin_names import PluginNames
 from .sensor_publisher import SensorPublisher
 
@@ -47,18 +48,20 @@ def _attach(sensor: CameraSensor, parameters: TagParameters, names: PluginNames,
         topic = names.advertise(kind, camera_topic(sensor, parameters, parameter, default))
         return SensorPublisher(topic, frame, rate_hz=rate_hz)
 
-    images, infos = (
-        advertise("imageTopicName", "image_raw", _IMAGE),
-        advertise("cameraInfoTopicName", "camera_info", _INFO),
+    pixels = sensor.optics.format
+    images = ImagePublisher(
+        names,
+        camera_topic(sensor, parameters, "imageTopicName", "image_raw"),
+        frame,
+        image_encoder(pixels),
+        rate_hz=rate_hz,
+        is_compressible=is_compressible(pixels),
     )
+    infos = advertise("cameraInfoTopicName", "camera_info", _INFO)
     depths = advertise("depthImageTopicName", "depth/image_raw", _IMAGE)
     depth_infos = advertise("depthImageCameraInfoTopicName", "depth/camera_info", _INFO)
     points = advertise("pointCloudTopicName", "points", _POINTS)
-    calibration, image, cloud = (
-        read_calibration(sensor, parameters),
-        image_encoder(sensor.optics.format),
-        point_cloud_encoder(sensor),
-    )
+    calibration, cloud = read_calibration(sensor, parameters), point_cloud_encoder(sensor)
     parameters.ignore("autoDistortion", "cameraName", "depthImageInfoTopicName", "reflectanceTopicName")
 
     @lru_cache(maxsize=1)  # depths and points share a reading
@@ -71,7 +74,7 @@ def _attach(sensor: CameraSensor, parameters: TagParameters, names: PluginNames,
         return _millimetres(clip(reading)) if in_millimetres else depth_image(clip(reading))
 
     def publish(reading: CameraReading) -> None:
-        images.publish(reading, lambda: image(reading))
+        images.publish(reading)
         infos.publish(reading, lambda: calibration)
         depths.publish(reading, lambda: depth_message(reading))
         depth_infos.publish(reading, lambda: calibration)
