@@ -4,6 +4,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 from tests.graphs import Graph, until
@@ -122,3 +123,42 @@ def test_a_program_moves_an_arm_by_move_group(running: Running, graph: Graph, tm
         "far 0",
         "cleared 0",
     ], output + log
+
+
+def test_a_program_shows_the_way_of_an_arm_step_by_step(running: Running, graph: Graph) -> None:
+    """The tip goes from 1.1 m above the base to 0.8 m before it; buttons of the topic lead on."""
+    _describe(graph)
+    node = graph.node("tester")
+    shown: list[Any] = []
+    states: list[Any] = []
+    scenes: list[Any] = []
+    node.subscribe("/rviz_visual_tools", "visualization_msgs/MarkerArray", shown.append)
+    node.subscribe("/display_robot_state", "moveit_msgs/DisplayRobotState", states.append)
+    node.subscribe("/planning_scene", "moveit_msgs/PlanningScene", scenes.append)
+    buttons = node.advertise("/rviz_visual_tools_gui", "sensor_msgs/Joy", queue_size=5)
+    if not (running.folder / "cpp_arm/shower").exists():
+        pytest.skip("this machine has no Eigen for C++")
+    program = running.start("shower", package="cpp_arm")
+
+    until(lambda: shown and buttons.has_subscribers)
+    until(lambda: buttons.publish({"buttons": [0, 1]}) or (states and scenes))
+    until(lambda: buttons.publish({"buttons": [0, 0, 0, 1]}) or program.poll() is not None)
+    output, _ = program.communicate(timeout=WAIT_S)
+
+    markers = {(marker.ns, marker.type): marker for marker in shown[0].markers}
+    assert shown[0].markers[0].action == 3  # DELETEALL
+    assert [marker.text for marker in shown[0].markers if marker.type == 9] == ["Way of the tip", "tip"]
+    way = [(point.x, point.z) for point in markers["Path", 4].points]
+    assert way == [pytest.approx((0.0, 1.1)), pytest.approx((0.8, 0.3))]
+    assert len([marker for marker in shown[0].markers if marker.ns == "tip"]) == 3
+    state = dict(zip(states[-1].state.joint_state.name, states[-1].state.joint_state.position, strict=True))
+    assert state["j2"] == pytest.approx(1.5708, abs=1e-4)
+    assert {color.id for color in states[-1].highlight_links} == {"base", *(f"l{i}" for i in range(1, 7))}
+    block = scenes[-1].world.collision_objects[0]
+    assert (block.id, list(block.primitives[0].dimensions)) == ("block", pytest.approx([0.2, 0.2, 0.4]))
+    assert "Waiting to continue: see the line... continuing\n" in output
+    assert re.findall(r"^(line|short|empty) (\d)$", output, re.MULTILINE) == [
+        ("line", "1"),
+        ("short", "0"),
+        ("empty", "0"),
+    ], output
