@@ -156,7 +156,11 @@ void Subscription::watch(const std::shared_ptr<PublisherLink>& link, const std::
     link->connection = connection;
     link->transport = transport;
   }
-  net::Loop::instance().add(connection);
+  if (net::Loop::instance().add(connection)) return;
+  connection->on_closed = nullptr;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  link->connection.reset();
+  throw net::NetError("this node has too many connections");
 }
 
 }  // namespace ros

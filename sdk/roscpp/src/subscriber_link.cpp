@@ -63,13 +63,16 @@ void sendDatagrams(const std::shared_ptr<Publication>& publication, const M_stri
                    const std::string& host, uint16_t port, uint32_t id, int size) {
   try {
     net::connectDatagrams(socket, host, port);
+    if (topics::publication(publication->topic) != publication) return;
     const auto sender = std::make_shared<net::DatagramSender>(std::move(socket), id, size);
     const auto link = makeLink(publication, header, sender, "UDPROS");
     link->address = host + ":" + std::to_string(port);
     for (const auto& other : publication->links())
       if (other->address == link->address) other->close();
-    if (topics::publication(publication->topic) != publication) return;
-    if (!net::Loop::instance().add(sender)) throw net::NetError("this node has too many connections");
+    if (!net::Loop::instance().add(sender)) {
+      sender->on_closed = nullptr;
+      throw net::NetError("this node has too many connections");
+    }
     publication->addLink(link);
   } catch (const net::NetError& error) {
     if (!isShuttingDown())

@@ -73,6 +73,12 @@ bool Transformer::waitForTransform(const std::string& target_frame, const ros::T
   }
 }
 
+bool Transformer::canTransform(const std::string& target_frame, const ros::Time& target_time,
+                               const std::string& source_frame, const ros::Time& source_time,
+                               const std::string& fixed_frame, std::string* error_msg) const {
+  return buffer_->canTransform(target_frame, target_time, source_frame, source_time, fixed_frame, error_msg);
+}
+
 int Transformer::getLatestCommonTime(const std::string& source_frame, const std::string& target_frame, ros::Time& time,
                                      std::string* error_string) const {
   try {

@@ -27,6 +27,8 @@ class Transformer {
   virtual ~Transformer() {}
 
   void clear() { buffer_->clear(); }
+  // Waiting is not refused where no thread is announced.
+  void setUsingDedicatedThread(bool) {}
   // Nothing is extrapolated, with any limit, as in tf since it is built on tf2.
   void setExtrapolationLimit(const ros::Duration&) {}
   bool setTransform(const StampedTransform& transform, const std::string& authority = "default_authority");
@@ -39,6 +41,9 @@ class Transformer {
                         const ros::Duration& timeout, const ros::Duration& polling_sleep_duration = ros::Duration(0.01),
                         std::string* error_msg = nullptr) const;
   bool canTransform(const std::string& target_frame, const std::string& source_frame, const ros::Time& time,
+                    std::string* error_msg = nullptr) const;
+  bool canTransform(const std::string& target_frame, const ros::Time& target_time, const std::string& source_frame,
+                    const ros::Time& source_time, const std::string& fixed_frame,
                     std::string* error_msg = nullptr) const;
   bool waitForTransform(const std::string& target_frame, const ros::Time& target_time, const std::string& source_frame,
                         const ros::Time& source_time, const std::string& fixed_frame, const ros::Duration& timeout,
