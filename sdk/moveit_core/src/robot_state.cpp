@@ -62,6 +62,14 @@ void RobotState::setVariablePositions(const std::vector<std::string>& names, con
   updateMimicJoints();
 }
 
+void RobotState::setVariableValues(const sensor_msgs::JointState& values) {
+  setVariablePositions(values.name, values.position);
+  if (values.velocity.size() == values.name.size())
+    for (std::size_t i = 0; i < values.name.size(); ++i) setVariableVelocity(values.name[i], values.velocity[i]);
+  if (values.effort.size() == values.name.size())
+    for (std::size_t i = 0; i < values.name.size(); ++i) setVariableEffort(values.name[i], values.effort[i]);
+}
+
 void RobotState::setVariableVelocities(const std::vector<double>& velocity) {
   has_velocity_ = true;
   std::copy_n(velocity.begin(), std::min(velocity.size(), velocity_.size()), velocity_.begin());

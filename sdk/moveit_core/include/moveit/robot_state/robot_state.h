@@ -71,6 +71,8 @@ class RobotState {
   void setVariablePositions(const std::vector<double>& position);
   void setVariablePositions(const std::map<std::string, double>& variables);
   void setVariablePositions(const std::vector<std::string>& names, const std::vector<double>& positions);
+  /** Set the positions, and the velocities and efforts if there are any, of the variables that a message names. */
+  void setVariableValues(const sensor_msgs::JointState& values);
   void setVariablePosition(const std::string& variable, double value) { setPosition(index(variable), value); }
   void setVariablePosition(int index, double value) { setPosition(static_cast<std::size_t>(index), value); }
 

@@ -57,6 +57,14 @@ void checkState(const robot_model::RobotModelPtr& model) {
   CHECK(state.getGlobalLinkTransform("l6").translation().isApprox(Eigen::Vector3d(0.8, 0, 0.3), 1e-9));
   CHECK(state.getFrameTransform("world").isApprox(Eigen::Isometry3d::Identity()));
 
+  sensor_msgs::JointState values;
+  values.name = {"j2", "j1"};
+  values.position = {0.4, 0.1};
+  values.velocity = {0.2, 0.3};
+  state.setVariableValues(values);
+  CHECK(isNear(state.getVariablePosition("j2"), 0.4) && isNear(state.getVariableVelocity("j1"), 0.3) && !state.hasEffort());
+  state.dropVelocities();
+
   state.setToRandomPositions(arm);
   CHECK(state.satisfiesBounds(arm));
   const Eigen::MatrixXd jacobian = state.getJacobian(arm);
