@@ -40,8 +40,9 @@ void RowStepper::step(const WorldRows& rows, int steps) const {
       step_row(m, d, rows, row, steps);
     }
   };
+  const auto chosen = static_cast<std::size_t>(std::count(rows.chosen, rows.chosen + rows.count, true));
   std::vector<std::thread> threads;
-  for (std::size_t i = 1; i < std::min(workers_.size(), rows.count); ++i) threads.emplace_back(work, workers_[i]);
+  for (std::size_t i = 1; i < std::min(workers_.size(), chosen); ++i) threads.emplace_back(work, workers_[i]);
   work(workers_.front());
   for (std::thread& thread : threads) thread.join();
 }

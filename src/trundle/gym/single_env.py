@@ -37,7 +37,7 @@ class SimulationEnv(gymnasium.Env[Observed, Any]):
         """
         super().reset(seed=seed, options=options)
         self.worlds.random[0] = self.np_random
-        self.worlds.reset(0)
+        self.worlds.reset([0])
         return self._observation(), {}
 
     def step(self, action: NDArray[np.float32]) -> tuple[Observed, float, bool, bool, dict[str, Any]]:

@@ -61,7 +61,7 @@ class SimulationVectorEnv(VectorEnv[Observed, NDArray[np.float32], Any]):
         for row, row_seed in enumerate(seeds):
             if row_seed is not None or not self._is_seeded:
                 self.worlds.random[row] = seeding.np_random(row_seed)[0]
-            self.worlds.reset(row)
+        self.worlds.reset(range(self.num_envs))
         self._is_seeded = True
         self._ended[:] = False
         return self.worlds.observe(), {}
@@ -78,8 +78,8 @@ class SimulationVectorEnv(VectorEnv[Observed, NDArray[np.float32], Any]):
         """
         was_ended = self._ended
         step = self.worlds.step(actions, chosen=~was_ended)
-        for row in np.flatnonzero(was_ended).tolist():
-            self.worlds.reset(row)
+        if was_ended.any():
+            self.worlds.reset(np.flatnonzero(was_ended).tolist())
         rewards, terminated = np.where(was_ended, 0.0, step.rewards), step.terminated & ~was_ended
         truncated = step.truncated & ~was_ended
         self._ended = terminated | truncated

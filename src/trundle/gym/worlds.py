@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from trundle.base.diagnostics import UsageError
 from trundle.live.loaded_simulation import LoadedSimulation
+from trundle.sim.physics import WorldRow
 from trundle.spatial import NS_PER_S
 
 from .actions import Action, Apply
@@ -120,19 +121,23 @@ class Worlds:
         arrays = [reader.read() for reader in self._readers]
         return arrays[0] if len(arrays) == 1 else np.concatenate(arrays, axis=1)
 
-    def reset(self, row: int) -> None:
-        """Begin an episode of a world, with its generator in `random`."""
+    def reset(self, rows: Sequence[int]) -> None:
+        """Begin an episode of worlds, with their generators in `random`."""
+        self.states.batch.write_rows(rows, [self._first_state(row) for row in rows])
+        readers = self._readers.values() if isinstance(self._readers, dict) else self._readers
+        for row in rows:
+            self.states.actions[row] = 0.0
+            self._elapsed[row] = 0
+            for reader in readers:
+                reader.reset(row)
+
+    def _first_state(self, row: int) -> WorldRow:
+        if self.task.reset is None:
+            return self._loaded
         simulation = self.states.simulation
-        state = self._loaded
-        if self.task.reset is not None:
-            simulation.reset()
-            self.task.reset(simulation, self.random[row])
-            state = simulation.engine.world_row()
-        self.states.batch.write_row(row, state)
-        self.states.actions[row] = 0.0
-        self._elapsed[row] = 0
-        for reader in self._readers.values() if isinstance(self._readers, dict) else self._readers:
-            reader.reset(row)
+        simulation.reset()
+        self.task.reset(simulation, self.random[row])
+        return simulation.engine.world_row()
 
     def step(self, actions: ArrayLike, *, chosen: NDArray[np.bool_] | None = None) -> Step:
         """Act on worlds and step them.

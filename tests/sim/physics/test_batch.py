@@ -96,3 +96,20 @@ def test_rows_that_are_not_chosen_keep_their_state(robot) -> None:
     batch.step(10, chosen=np.array([False, True]))
 
     assert batch.time_s.tolist() == [0.0, pytest.approx(0.01)]
+
+
+def test_rows_are_written_at_once_as_one_by_one(robot) -> None:
+    sim = trundle.load(robot)
+    start = sim.engine.world_row()
+    sim["cart"].set_pose(Pose((1.0, 0.0, 0.5)))
+    moved = sim.engine.world_row()
+    single, together = (sim.engine.batch(3, threads=2) for _ in range(2))
+    single.write_row(2, moved)
+    single.write_row(0, start)
+
+    together.write_rows([2, 0], [moved, start])
+
+    assert np.array_equal(together.states, single.states)
+    assert np.array_equal(together.poses, single.poses)
+    assert together.poses[2, 0, :3].tolist() == [1.0, 0.0, 0.5]
+    assert not together.poses[1].any()

@@ -144,10 +144,15 @@ class Batch:
 
     def write_row(self, row: int, source: WorldRow) -> None:
         """Set a row, and compute its poses and twists."""
-        self.states[row] = source.state
-        self._max_efforts[row], self._rates[row] = source.motors.max_efforts, source.motors.rates
+        self.write_rows([row], [source])
+
+    def write_rows(self, rows: Sequence[int], sources: Sequence[WorldRow]) -> None:
+        """Set rows, and compute their poses and twists at once."""
         chosen = np.zeros_like(self._all)
-        chosen[row] = True
+        for row, source in zip(rows, sources, strict=True):
+            self.states[row] = source.state
+            self._max_efforts[row], self._rates[row] = source.motors.max_efforts, source.motors.rates
+            chosen[row] = True
         self.step(0, chosen=chosen)
 
     def _part(self, part: mujoco.mjtState) -> _Array:
@@ -165,6 +170,8 @@ def velocities_of(model: mujoco.MjModel, states: _Array) -> _Array:
     """Return the velocities (rows, nv) of (rows, …) states, mjSTATE_INTEGRATION, at the time of their positions."""
     qvel, qacc = (part_of(model, states, part) for part in (_STATE.mjSTATE_QVEL, _STATE.mjSTATE_WARMSTART))
     times = part_of(model, states, _STATE.mjSTATE_USERDATA)[:, model.nu : model.nu + model.nv]
+    if not times.any():
+        return qvel
     return midpoints_moved(qvel, times, qacc, 0.5 * model.opt.timestep)
 
 
