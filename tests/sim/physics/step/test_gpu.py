@@ -8,6 +8,7 @@ from importlib.metadata import packages_distributions
 from importlib.util import find_spec
 from pathlib import Path
 
+import mujoco
 import numpy as np
 import pytest
 from tests.warp_device import warp_device
@@ -16,6 +17,7 @@ import trundle
 from trundle.assets import ASSETS
 from trundle.base.diagnostics import UsageError
 from trundle.sim.physics import Batch, NoGpuError, find_gpu, gpu_limits
+from trundle.sim.physics.step.batch import part_of
 from trundle.sim.simulation import Simulation
 
 WORLDS = ASSETS / "worlds"
@@ -238,6 +240,33 @@ def test_a_box_falls_onto_the_floor_and_rests_as_on_the_cpu(box) -> None:
     assert np.abs(gpu.twists).max() < 1e-3
     assert _apart(cpu, gpu) < 0.02
     assert gpu.poses[0] == pytest.approx(gpu.poses[1], abs=1e-5)  # a GPU adds in any order
+
+
+@needs_warp
+@pytest.mark.slow
+def test_all_convex_pairs_of_all_worlds_may_touch_at_once(tmp_path) -> None:
+    """Memory for penetrations is kept for as many pairs as there are of two types, here 6 of boxes, in each world."""
+    boxes = "".join(
+        f'<model name="b{i}"><pose>{0.03 * i} 0 0.5 0 0 0</pose><link name="l"><inertial><mass>1</mass>{INERTIA}'
+        f'</inertial><collision name="c">{SHAPE}</collision></link></model>'
+        for i in range(4)
+    )
+    from trundle.sim.physics.step.warp.gpu_batch import GpuBatch
+
+    file = tmp_path / "boxes.world"
+    file.write_text(f'<sdf version="1.6"><world name="w">{FLOOR.format("")}{boxes}</world></sdf>')
+    sim = trundle.load(str(file))
+    cpu, gpu = _on_both(sim, 3)
+
+    for batch in (cpu, gpu):
+        positions = part_of(sim.engine.compiled.model, batch.states, mujoco.mjtState.mjSTATE_QPOS)
+        positions[:, ::7] = 0.03 * np.arange(4)  # inside each other again
+        batch.step(2)
+
+    assert isinstance(gpu, GpuBatch)
+    assert gpu._stepper_on_gpu._data.naccdmax == 3 * 6
+    for batch in (cpu, gpu):
+        assert (batch.poses[:, -1, 0] - batch.poses[:, 1, 0]).min() > 0.094
 
 
 @needs_warp

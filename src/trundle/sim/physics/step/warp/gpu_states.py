@@ -69,8 +69,9 @@ def advance(
     results = np.where(np.isfinite(after["qpos"]).all(axis=1) & slow, StepResult.STABLE, StepResult.UNSTABLE)
     results[crowded] = StepResult.CROWDED
     stable = chosen & (results == StepResult.STABLE)
+    rows = slice(None) if stable.all() else stable  # a mask copies each array once more
     for name, values in after.items():
-        part_of(model, states, _INPUTS[name])[stable] = values[stable]
-    laws[stable, : model.nu], laws[stable, model.nu : model.nu + model.nv] = targets[stable], 0.0
-    part_of(model, states, mujoco.mjtState.mjSTATE_TIME)[stable] += count * model.opt.timestep
+        part_of(model, states, _INPUTS[name])[rows] = values[rows]
+    laws[rows, : model.nu], laws[rows, model.nu : model.nu + model.nv] = targets[rows], 0.0
+    part_of(model, states, mujoco.mjtState.mjSTATE_TIME)[rows] += count * model.opt.timestep
     return results.astype(np.int8)

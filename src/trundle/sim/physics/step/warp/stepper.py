@@ -61,7 +61,14 @@ class GpuStepper:
             except (NotImplementedError, ValueError) as error:
                 raise UsageError(f"a GPU cannot step this world; use device='cpu': {error}") from None
             self._model.opt.warn_overflow = 0
-            self._data = mujoco_warp.make_data(model, nworld=worlds, naconmax=max_contacts, njmax=rows)
+            self._data = mujoco_warp.make_data(
+                model,
+                nworld=worlds,
+                naconmax=max_contacts,
+                naccdmax=min(worlds * _convex_pairs(model, contacts), max_contacts),
+                njmax=rows,
+            )
+            self._is_loaded = dict.fromkeys(("qfrc_applied", "xfrc_applied"), False)
             self._motors = wp.array(find_table(model, "motors")[:, [0, 2]].astype(np.int32), dtype=int, ndim=2)
             self._stops = wp.array(_stops(model).astype(np.float32), dtype=float, ndim=2)
             self._rates = wp.zeros((worlds, model.ntendon), dtype=float)
@@ -104,6 +111,10 @@ class GpuStepper:
             self._rates.assign(rates.astype(np.float32))
             self._sliding.last_targets.assign(targets.astype(np.float32))
             for name, values in before.items():
+                if name in self._is_loaded:
+                    was_loaded, self._is_loaded[name] = self._is_loaded[name], bool(values.any())
+                    if not (was_loaded or self._is_loaded[name]):
+                        continue  # both are zero
                 getattr(self._data, name).assign(values.astype(np.float32))
             self._data.overflow.zero_()
             for _ in range(count):
@@ -113,6 +124,20 @@ class GpuStepper:
             targets[:] = self._sliding.last_targets.numpy()
         crowded = overflow & sum(int(mujoco_warp.OverflowType[name]) for name in _OVERFLOWS) != 0
         return {name: values.astype(np.float64) for name, values in after.items()}, crowded
+
+
+def _convex_pairs(model: mujoco.MjModel, contacts: int) -> int:
+    """Return how many pairs of a world may need memory for penetrations of convex shapes (10 kB each) at a time.
+
+    That is the largest number of pairs of the same two types, as each two types take their turn: pairs with a plane
+    need none, and every prism of a heightmap does. `contacts` is returned where not all pairs are listed.
+    """
+    kinds = np.sort(model.geom_type[np.stack([model.pair_geom1, model.pair_geom2])], axis=0)
+    plane, field = int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_HFIELD)
+    if model.geom_contype.any() or (kinds == field).any():
+        return contacts
+    kinds = kinds[:, kinds[0] != plane]
+    return int(np.unique(kinds, axis=1, return_counts=True)[1].max(initial=1))
 
 
 def _stops(model: mujoco.MjModel) -> _Array:
