@@ -1,4 +1,4 @@
-"""4,096 RP2Ws and 4,096 differential robots on a GPU, against the CPU cores of the same machine.
+"""4,096 RP2Ws and 4,096 differential robots on a GPU, and environments, against the CPU cores of the same machine.
 
 Times are wall times; steps of all worlds count. Without a GPU the rows say so.
 """
@@ -13,11 +13,15 @@ import numpy as np
 import trundle
 from bench.table import Row
 from trundle.assets import ASSETS
+from trundle.gym import make_vec
+from trundle.gym.ready_tasks import READY
 from trundle.sim.physics import Batch, NoGpuError, find_gpu
 
 _WORLDS = 4096
 _STEPS = 100
 _PAIRS = 5
+_ENVIRONMENTS = (4096, 16384)
+_ENVIRONMENT_PAIRS = 3
 _ROBOTS = {
     "RP2W": (Path(__file__).parents[1] / "examples/rp2w", ("chassis_left_wheel", "chassis_right_wheel")),
     "differential robots": (
@@ -43,7 +47,36 @@ def run() -> list[Row]:
         ratio = statistics.median(gpu_rate / cpu_rate for gpu_rate, cpu_rate in pairs)
         peer = f"{os.cpu_count()} CPU cores"
         rows.append(Row(f"{_WORLDS:,} {name} on a GPU", value, "worlds × steps/s", peer, ratio))
-    return rows
+    return rows + [row for worlds in _ENVIRONMENTS for row in _environments(gpu, worlds)]
+
+
+def _environments(gpu: str, worlds: int) -> list[Row]:
+    """Measure the drive to a goal, with its lidar, rewards and resets, and the GPU's memory that it takes."""
+    import warp
+
+    file, task = READY["Trundle/DriveToGoal-v0"]
+    cores = os.cpu_count() or 1
+    free = warp.get_device(gpu).free_memory
+    both = [make_vec(file, num_envs=worlds, threads=cores, device=device, **task) for device in ("cuda", "cpu")]
+    for envs in both:
+        envs.reset(seed=0)
+    both[0].action_space.seed(0)
+    pairs: list[list[float]] = []
+    for _ in range(1 + _ENVIRONMENT_PAIRS):
+        actions, times = both[0].action_space.sample(), list[float]()
+        for envs in both:
+            start = time.perf_counter()
+            envs.step(actions)
+            times.append(time.perf_counter() - start)
+        pairs.append(times)
+    taken = (free - warp.get_device(gpu).free_memory) / 1e9
+    rate = worlds / statistics.median(gpu_s for gpu_s, _ in pairs[1:])
+    ratio = statistics.median(cpu_s / gpu_s for gpu_s, cpu_s in pairs[1:])
+    name = f"{worlds:,} environments on a GPU"
+    return [
+        Row(name, rate, "environment steps/s", f"{cores} CPU cores", ratio),
+        Row(f"{name}: its memory", taken, "GB", "", None),
+    ]
 
 
 def _rolling_batch(file: Path, wheels: tuple[str, str], device: str | None) -> Batch:
