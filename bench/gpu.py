@@ -47,16 +47,13 @@ def run() -> list[Row]:
         ratio = statistics.median(gpu_rate / cpu_rate for gpu_rate, cpu_rate in pairs)
         peer = f"{os.cpu_count()} CPU cores"
         rows.append(Row(f"{_WORLDS:,} {name} on a GPU", value, "worlds × steps/s", peer, ratio))
-    return rows + [row for worlds in _ENVIRONMENTS for row in _environments(gpu, worlds)]
+    return rows + [_environments(worlds) for worlds in _ENVIRONMENTS]
 
 
-def _environments(gpu: str, worlds: int) -> list[Row]:
-    """Measure the drive to a goal, with its lidar, rewards and resets, and the GPU's memory that it takes."""
-    import warp
-
+def _environments(worlds: int) -> Row:
+    """Measure the drive to a goal, with its lidar, rewards and resets."""
     file, task = READY["Trundle/DriveToGoal-v0"]
     cores = os.cpu_count() or 1
-    free = warp.get_device(gpu).free_memory
     both = [make_vec(file, num_envs=worlds, threads=cores, device=device, **task) for device in ("cuda", "cpu")]
     for envs in both:
         envs.reset(seed=0)
@@ -69,14 +66,9 @@ def _environments(gpu: str, worlds: int) -> list[Row]:
             envs.step(actions)
             times.append(time.perf_counter() - start)
         pairs.append(times)
-    taken = (free - warp.get_device(gpu).free_memory) / 1e9
     rate = worlds / statistics.median(gpu_s for gpu_s, _ in pairs[1:])
     ratio = statistics.median(cpu_s / gpu_s for gpu_s, cpu_s in pairs[1:])
-    name = f"{worlds:,} environments on a GPU"
-    return [
-        Row(name, rate, "environment steps/s", f"{cores} CPU cores", ratio),
-        Row(f"{name}: its memory", taken, "GB", "", None),
-    ]
+    return Row(f"{worlds:,} environments on a GPU", rate, "environment steps/s", f"{cores} CPU cores", ratio)
 
 
 def _rolling_batch(file: Path, wheels: tuple[str, str], device: str | None) -> Batch:
