@@ -210,6 +210,11 @@ geometry_msgs::TransformStamped BufferCore::lookupTransform(const std::string& t
                                                             const std::string& source_frame,
                                                             const ros::Time& time) const {
   const std::lock_guard<std::recursive_mutex> lock(mutex_);
+  if (target_frame == source_frame) {  // also of a frame that nobody has sent yet
+    ros::Time at = time;
+    const Transform identity = lookUp(target_frame, source_frame, at);
+    return message(identity, at, target_frame, source_frame);
+  }
   const std::string target = checked(target_frame, "lookupTransform argument target_frame"),
                     source = checked(source_frame, "lookupTransform argument source_frame");
   ros::Time at = time;

@@ -20,6 +20,19 @@ namespace tf {
 /** Name of a frame with the prefix; a name with a leading slash gets no prefix. */
 std::string resolve(const std::string& prefix, const std::string& frame_name);
 
+/** Throw InvalidArgument unless a quaternion has length 1: its square may be wrong by a hundredth, as in tf. */
+inline void assertQuaternionValid(const Quaternion& q) {
+  if (!(std::fabs(q.length2() - 1) <= 0.01)) {  // also for NaN
+    std::ostringstream text;
+    text << "the quaternion " << q.x() << " " << q.y() << " " << q.z() << " " << q.w() << " has length " << q.length()
+         << ", not 1";
+    throw InvalidArgument(text.str());
+  }
+}
+inline void assertQuaternionValid(const geometry_msgs::Quaternion& q) {
+  assertQuaternionValid(Quaternion(q.x, q.y, q.z, q.w));
+}
+
 /** Transforms of the last seconds; time 0 is the latest time. */
 class Transformer {
  public:

@@ -34,6 +34,10 @@ class Stamped : public T {
       : T(input), stamp_(timestamp), frame_id_(frame_id) {}
   void setData(const T& input) { *static_cast<T*>(this) = input; }
 };
+template <class T>
+bool operator==(const Stamped<T>& a, const Stamped<T>& b) {
+  return a.frame_id_ == b.frame_id_ && a.stamp_ == b.stamp_ && static_cast<const T&>(a) == static_cast<const T&>(b);
+}
 
 /** Transform from a child frame to its parent. */
 class StampedTransform : public tf::Transform {
@@ -47,6 +51,10 @@ class StampedTransform : public tf::Transform {
       : tf::Transform(input), stamp_(timestamp), frame_id_(frame_id), child_frame_id_(child_frame_id) {}
   void setData(const tf::Transform& input) { *static_cast<tf::Transform*>(this) = input; }
 };
+inline bool operator==(const StampedTransform& a, const StampedTransform& b) {
+  return a.frame_id_ == b.frame_id_ && a.child_frame_id_ == b.child_frame_id_ && a.stamp_ == b.stamp_ &&
+         static_cast<const tf::Transform&>(a) == static_cast<const tf::Transform&>(b);
+}
 
 inline Quaternion createIdentityQuaternion() { return Quaternion::getIdentity(); }
 inline Quaternion createQuaternionFromRPY(double roll, double pitch, double yaw) {
