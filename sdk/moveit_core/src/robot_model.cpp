@@ -112,7 +112,7 @@ JointModel& RobotModel::addRootJoint() {
                      joint.name_.c_str(), joint.child_link_.c_str(), urdf_->getRoot()->name.c_str());
       continue;
     }
-    model_frame_ = joint.parent_frame_;
+    if (joint.type_ != "fixed") model_frame_ = joint.parent_frame_;  // as move_group, and MoveIt
     return addJoint(joint.name_, typeNamed(joint.type_));
   }
   return addJoint("ASSUMED_FIXED_ROOT_JOINT", JointModel::FIXED);

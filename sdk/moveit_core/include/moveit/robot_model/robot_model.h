@@ -32,7 +32,7 @@ class RobotModel {
   RobotModel& operator=(const RobotModel&) = delete;
 
   const std::string& getName() const { return name_; }
-  /** Parent frame of the virtual joint, or the root link. */
+  /** Parent frame of the virtual joint, or the root link if there is none or it is fixed. */
   const std::string& getModelFrame() const { return model_frame_; }
   bool isEmpty() const { return links_.empty(); }
   const urdf::ModelInterfaceSharedPtr& getURDF() const { return urdf_; }

@@ -26,7 +26,7 @@ int made = 0, failed = 0;
 bool isNear(double one, double other, double tolerance = 1e-9) { return std::fabs(one - other) < tolerance; }
 
 void checkModel(const robot_model::RobotModel& model) {
-  CHECK(model.getName() == "elbow" && model.getModelFrame() == "world" && model.getRootLinkName() == "base");
+  CHECK(model.getName() == "elbow" && model.getModelFrame() == "base" && model.getRootLinkName() == "base");
   CHECK(model.getRootJointName() == "fixed_base" && model.getVariableCount() == 8);
   CHECK(model.getJointModelGroupNames() == std::vector<std::string>({"arm", "hand", "whole"}));
   const robot_model::JointModelGroup& arm = *model.getJointModelGroup("arm");
@@ -55,7 +55,7 @@ void checkState(const robot_model::RobotModelPtr& model) {
   CHECK(state.getGlobalLinkTransform("l6").translation().isApprox(Eigen::Vector3d(0, 0, 1.1), 1e-9));
   state.setVariablePosition("j2", M_PI / 2);
   CHECK(state.getGlobalLinkTransform("l6").translation().isApprox(Eigen::Vector3d(0.8, 0, 0.3), 1e-9));
-  CHECK(state.getFrameTransform("world").isApprox(Eigen::Isometry3d::Identity()));
+  CHECK(state.getFrameTransform("base").isApprox(Eigen::Isometry3d::Identity()));
 
   sensor_msgs::JointState values;
   values.name = {"j2", "j1"};
