@@ -4,11 +4,12 @@ from typing import Any
 
 import pytest
 
-from trundle.navigation.planners.goal_stop import GoalStop
+from trundle.navigation.planners.goal_stop import GoalStop, Velocity
 from trundle.navigation.planners.interfaces import Pose2D
 from trundle.navigation.planners.trajectory_planner import TrajectorySettings
 
 GOAL = Pose2D(1.0, 0.0, 0.0)
+STANDING = (0.0, 0.0, 0.0)
 
 
 def stop(**limits: Any) -> GoalStop:
@@ -17,21 +18,41 @@ def stop(**limits: Any) -> GoalStop:
     return GoalStop(node, settings, stopped_speed=0.01, stopped_turn=0.01)
 
 
+def command(goal_stop: GoalStop, pose: Pose2D, velocity: Velocity) -> Velocity:
+    found = goal_stop.command(pose, GOAL, velocity, least_turn=0.1, most_turn=1.0, period_s=0.1, is_free=lambda _: True)
+    assert found is not None
+    return found
+
+
 @pytest.mark.parametrize(("is_latched", "at_last"), [(False, False), (True, True)])
-def test_a_robot_at_the_goal_stays_there_while_its_localization_jitters(is_latched: bool, at_last: bool) -> None:
+def test_a_robot_that_turns_at_the_goal_stays_there_while_its_localization_jitters(
+    is_latched: bool, at_last: bool
+) -> None:
     """Otherwise it turns to the goal's direction and back to the way, again and again."""
     goal_stop = stop(latch_xy_goal_tolerance=is_latched)
+    there: list[bool] = []
 
-    there = [
-        goal_stop.is_at_position(Pose2D(1.0 - beside, 0.0, 2.0), GOAL) for beside in (0.12, 0.09, 0.11, 0.14, 0.16)
-    ]
+    for beside in (0.12, 0.09, 0.11, 0.14, 0.16, 0.14):
+        pose = Pose2D(1.0 - beside, 0.0, 2.0)
+        there.append(goal_stop.is_at_position(pose, GOAL))
+        if there[-1]:
+            assert command(goal_stop, pose, STANDING)[2] < 0.0
 
-    assert there == [False, True, True, True, at_last]
+    assert there == [False, True, True, True, at_last, at_last]
+
+
+def test_a_robot_that_rolls_out_of_the_tolerance_has_not_reached_the_goal() -> None:
+    goal_stop = stop()
+
+    assert goal_stop.is_at_position(Pose2D(0.91, 0.0, 0.0), GOAL)
+    assert 0.0 < command(goal_stop, Pose2D(0.91, 0.0, 2.0), (0.5, 0.0, 0.0))[0] < 0.5
+
+    assert not goal_stop.is_reached(Pose2D(1.12, 0.0, 0.0), GOAL, STANDING)
 
 
 def test_a_new_goal_is_reached_within_the_tolerance_alone() -> None:
     goal_stop = stop()
-    assert goal_stop.is_reached(GOAL, GOAL, (0.0, 0.0, 0.0))
+    assert goal_stop.is_reached(GOAL, GOAL, STANDING)
     goal_stop.reset(is_new_goal=True)
 
     assert not goal_stop.is_at_position(Pose2D(1.12, 0.0, 0.0), GOAL)

@@ -23,7 +23,7 @@ class StopLimits(Protocol):
 
 Velocity = tuple[float, float, float]
 _LEAVING = 1.5
-"""Distance at which a robot has left the goal, in tolerances: localization moves a little while it turns there."""
+"""Distance at which a robot that turns at the goal has left it, in tolerances: meanwhile its localization moves."""
 
 
 class GoalStop:
@@ -43,21 +43,25 @@ class GoalStop:
         self._stopped_speed = stopped_speed
         self._stopped_turn = stopped_turn
         self._is_latched = False
-        self._is_near = self._is_turning = False
+        self._is_turning = self._has_turned = False
 
     def reset(self, *, is_new_goal: bool) -> None:
         """Begin a plan."""
-        self._is_near = self._is_turning = False
+        self._is_turning = self._has_turned = False
         if is_new_goal or not self._limits.latch_xy_goal_tolerance:
             self._is_latched = False
 
     def is_at_position(self, pose: Pose2D, goal: Pose2D) -> bool:
-        """True within the tolerance of the goal's position, until it is left; with a latch, from the first time on."""
+        """True within the tolerance of the goal's position; with a latch, from the first time on.
+
+        A robot that has begun to turn there is at the position until it has left it: its wheels hold it where it was.
+        """
         distance, tolerance = math.hypot(goal.x - pose.x, goal.y - pose.y), self._limits.xy_goal_tolerance
-        self._is_near = distance <= (_LEAVING if self._is_near else 1.0) * tolerance
-        if self._is_near and self._limits.latch_xy_goal_tolerance:
+        self._has_turned = self._has_turned and distance <= _LEAVING * tolerance
+        is_near = distance <= tolerance or self._has_turned
+        if is_near and self._limits.latch_xy_goal_tolerance:
             self._is_latched = True
-        return self._is_near or self._is_latched
+        return is_near or self._is_latched
 
     def is_reached(self, pose: Pose2D, goal: Pose2D, velocity: Velocity) -> bool:
         """True if the robot stands at the goal."""
@@ -94,7 +98,7 @@ class GoalStop:
                 approach(turn, 0.0, limits.acc_lim_theta * period_s),
             )
             return stop if is_free(stop) else None
-        self._is_turning = True
+        self._is_turning = self._has_turned = True
         speed = turning_speed(
             angle, turn, least=least_turn, most=most_turn, acceleration=limits.acc_lim_theta, period_s=period_s
         )
