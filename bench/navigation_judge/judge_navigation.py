@@ -27,12 +27,12 @@ _LEVEL = 0.7
 _SETTLE_NS = 6_000_000_000
 _GUESS_ERROR = (0.25, -0.15, 0.2)
 """Error of the initial pose: x, y [m], yaw [rad]."""
-_FREE_M = 0.1
-"""Distance from the robot's outline that goals keep to unknown and occupied cells."""
+_FREE_M, _ROOM_M = 0.1, 0.35
+"""Distances from the robot's outline: to occupied cells on the way, and from a goal to places that are not known."""
 _GAP_M = 0.15
-"""Half the side of the squares in which the share of known cells is counted."""
-_PASSABLE, _KNOWN = 0.3, 0.8
-"""Least share of free cells on the way, and in a square of the robot's size at a goal."""
+"""Half the side of the squares in which the share of free cells is counted."""
+_PASSABLE, _KNOWN = 0.3, 0.5
+"""Share of free cells above which the way leads through a place, and above which the place is known."""
 _LETHAL, _INSCRIBED, _OCCUPIED = 254, 253, 50
 _Pose = tuple[float, float, float]
 
@@ -54,30 +54,37 @@ def _planar(x: float, y: float, z: float, w: float) -> _Pose:
 def choose_goals(map_file: Path, start: _Pose, radius_m: float, max_m: float) -> list[_Pose]:
     """Return two goals: the farthest place within a length of way, and one half the way back.
 
-    The way keeps `radius_m` from what is occupied. It leads through cells most of whose surroundings are known: maps
-    of fine cells have unknown ones between the rays.
+    Both are for a robot that needs `radius_m`: it has room on the way, and more at the goals, where it turns and the
+    map may lack walls. A place is known by its surroundings: maps of fine cells have unknown ones between the rays.
     """
     grid = read_map(map_file)
     size = grid.resolution_m
-    cells: NDArray[np.uint8] = np.where(grid.cells > _OCCUPIED, _LETHAL, 0).astype(np.uint8)
-    reach = math.ceil(radius_m / size)
-    height, width = cells.shape
-    costs = [_LETHAL if square == 0 else _INSCRIBED for square in range(reach**2 + 1)]
-    _grids.inflate(cells, (0, 0, width, height), costs, inflate_unknown=True)
+    reach = math.ceil((radius_m + _FREE_M) / size)
+    is_occupied, is_free = grid.cells > _OCCUPIED, grid.cells == 0
+    share = _share(is_free, math.ceil(_GAP_M / size))
+    is_clear = ~_grown(is_occupied, reach)
+    is_roomy = is_clear & ~_grown(share <= _KNOWN, math.ceil((radius_m + _ROOM_M) / size))
     begin: tuple[int, int] = (int((start[0] - grid.origin[0]) / size), int((start[1] - grid.origin[1]) / size))
-    is_free = grid.cells == 0
-    is_open = (cells == 0) & (_share(is_free, math.ceil(_GAP_M / size)) > _PASSABLE)
-    rows, columns = np.indices((height, width))
+    is_open = is_clear & (share > _PASSABLE)
+    rows, columns = np.indices(is_open.shape)
     is_open[(rows - begin[1]) ** 2 + (columns - begin[0]) ** 2 <= reach**2] = True  # the robot stands there
     lengths = _grids.wave_front(np.where(is_open, np.float32(1.0), np.float32(-1.0)), [begin]) * size
-    lengths[(lengths > max_m) | (cells != 0) | ~is_free | (_share(is_free, reach) < _KNOWN)] = -1.0
+    lengths[(lengths > max_m) | ~is_roomy | ~is_free] = -1.0
     goals: list[_Pose] = []
     for ratio in (1.0, 0.5):
         wanted = ratio * float(lengths.max())
-        row, column = divmod(int(np.abs(lengths - wanted).argmin()), width)
+        row, column = divmod(int(np.abs(lengths - wanted).argmin()), is_open.shape[1])
         x, y = (column + 0.5) * size + grid.origin[0], (row + 0.5) * size + grid.origin[1]
         goals.append((float(x), float(y), math.atan2(start[1] - y, start[0] - x)))
     return goals
+
+
+def _grown(cells: NDArray[np.bool_], reach: int) -> NDArray[np.bool_]:
+    """Return the cells within a distance of True ones."""
+    grown: NDArray[np.uint8] = np.where(cells, _LETHAL, 0).astype(np.uint8)
+    costs = [_LETHAL if square == 0 else _INSCRIBED for square in range(reach**2 + 1)]
+    _grids.inflate(grown, (0, 0, cells.shape[1], cells.shape[0]), costs, inflate_unknown=True)
+    return grown != 0
 
 
 def _share(cells: NDArray[np.bool_], reach: int) -> NDArray[np.float64]:
@@ -209,7 +216,7 @@ class JudgeNavigation(Plugin):
             orientation = {"z": math.sin(yaw / 2.0), "w": math.cos(yaw / 2.0)}
             pose = {"pose": {"position": {"x": x, "y": y}, "orientation": orientation}, "covariance": covariance}
             self._guesses.publish({"header": {"frame_id": job["map_frame"], "stamp": self._now_ns}, "pose": pose})
-            self._todo = choose_goals(Path(job["map"]), in_map, job["radius"] + _FREE_M, job["max_way"])
+            self._todo = choose_goals(Path(job["map"]), in_map, job["radius"], job["max_way"])
             self._has_guessed, self._seen_ns = True, self._now_ns
             return
         if found is not None:
