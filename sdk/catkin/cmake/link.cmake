@@ -2,7 +2,8 @@
 # finds the symbols of a library that its CMakeLists.txt forgets in the program that loads it.
 if(NOT APPLE AND NOT WIN32 AND NOT "${CMAKE_CXX_STANDARD_LIBRARIES}" MATCHES "as-needed")
   file(GLOB _trundle_files "${TRUNDLE_KIT}/lib/*.so")
-  list(JOIN _trundle_files "\" \"" _trundle_files)
+  list(TRANSFORM _trundle_files REPLACE "(.+)" " \"\\1\"")
+  list(JOIN _trundle_files "" _trundle_files)
   string(APPEND CMAKE_CXX_STANDARD_LIBRARIES
-    " -Wl,--push-state,--as-needed \"${_trundle_files}\" -Wl,--pop-state -Wl,-rpath,\"${TRUNDLE_KIT}/lib\"")
+    " -Wl,--push-state,--as-needed${_trundle_files} -Wl,--pop-state -Wl,-rpath,\"${TRUNDLE_KIT}/lib\"")
 endif()

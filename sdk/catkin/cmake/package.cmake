@@ -6,7 +6,21 @@ macro(catkin_package)
     "INCLUDE_DIRS;LIBRARIES;CATKIN_DEPENDS;DEPENDS;CFG_EXTRAS;EXPORTED_TARGETS" ${ARGN})
   _trundle_name_folders()
   _trundle_write_config("${_trundle_package}" "${_trundle_INCLUDE_DIRS}" "${_trundle_LIBRARIES}" "${_trundle_CATKIN_DEPENDS}")
+  # At the end of CMakeLists.txt, as the targets may follow.
+  cmake_language(EVAL CODE "cmake_language(DEFER CALL _trundle_define_exports [[${_trundle_LIBRARIES}]])")
 endmacro()
+
+# Target of the libraries that a package exports.
+function(_trundle_define_exports libraries)
+  if(NOT TARGET trundle_exports)
+    add_custom_target(trundle_exports)
+  endif()
+  foreach(library IN LISTS libraries)
+    if(TARGET "${library}")
+      add_dependencies(trundle_exports "${library}")
+    endif()
+  endforeach()
+endfunction()
 
 function(_trundle_write_config package include_dirs libraries depends)
   set(folders "${CATKIN_DEVEL_PREFIX}/include")

@@ -71,6 +71,15 @@ def test_a_workspace_gets_its_devel_space(workspace: Path, capsys: pytest.Captur
     assert _make() == 0, "a second run succeeds, too"
 
 
+def test_packages_are_selected_alone_or_with_their_dependencies(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert _make("--pkg", "alpha") == 0
+    assert "-- ~~  traversing 1 packages in topological order:\n-- ~~  - alpha\n" in capsys.readouterr().out
+    assert _make("--only-pkg-with-deps", "alpha") == 0
+    assert "-- ~~  traversing 2 packages in topological order:\n-- ~~  - zeta\n" in capsys.readouterr().out
+
+
 def test_catkin_build_lists_builds_and_cleans_from_a_folder_below(
     workspace: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -63,7 +63,7 @@ class PackageBuilder:
             environment: variables of the tools.
         """
         self._toolchain = toolchain
-        self._build = build
+        self._build, self._devel = build, devel
         self._environment = dict(environment)
         cmake = kit.sources / "catkin/cmake"
         self._settings = [
@@ -89,26 +89,47 @@ class PackageBuilder:
             jobs: number of compilers that run at the same time; None: one for each processor.
             targets: targets of Ninja; empty: all.
         """
-        build = self._build / name
-        missing = build / "trundle_missing.txt"
-        missing.unlink(missing_ok=True)
-        _forget_other_compiler(build, self._toolchain.compiler)
         is_tested = any(target == "tests" or target.startswith("run_tests") for target in targets)
-        configure = [self._toolchain.cmake, "-S", str(folder), "-B", str(build)]
-        configure.append(f"-DCATKIN_ENABLE_TESTING={'ON' if is_tested else 'OFF'}")
-        code, text = yield from self._run([*configure, *self._settings])
-        lacks = tuple(dict.fromkeys(missing.read_text().split())) if missing.exists() else ()
+        code, text, lacks = yield from self._configure(name, folder, is_tested)
         if code:
             yield BuildResult(False, lacks, {"CMake": _cmake_error(text)})
             return
-        parallel = [] if jobs is None else ["-j", jobs]
-        ninja = [self._toolchain.ninja, "-C", str(build), "-k", "0", *parallel]
+        ninja = self._ninja(name, jobs)
         built = ""
         if is_tested:  # tests run nodes, and load libraries that are built for tests alone
             _, built = yield from self._run([*ninja, "all"])
         code, text = yield from self._run([*ninja, *targets])
         text = built + text
         yield BuildResult(True, lacks, _failures(text) or ({"ninja": text.splitlines()[-1]} if code and text else {}))
+
+    def build_exports(self, name: str, folder: Path, *, jobs: str | None) -> Iterator[str]:
+        """Configure a package, and build the libraries that it exports by catkin_package(); yield the tools' lines.
+
+        Args:
+            name: name of the package.
+            folder: its folder.
+            jobs: number of compilers that run at the same time; None: one for each processor.
+        """
+        code, _, _ = yield from self._configure(name, folder, False)
+        if not code and (self._devel / f"share/{name}/cmake/{name}Config.cmake").exists():
+            yield from self._run([*self._ninja(name, jobs), "trundle_exports"])
+
+    def _configure(
+        self, name: str, folder: Path, is_tested: bool
+    ) -> Generator[str, None, tuple[int, str, tuple[str, ...]]]:
+        """Run CMake; return its code and text, and what it did not find."""
+        build = self._build / name
+        missing = build / "trundle_missing.txt"
+        missing.unlink(missing_ok=True)
+        _forget_other_compiler(build, self._toolchain.compiler)
+        configure = [self._toolchain.cmake, "-S", str(folder), "-B", str(build)]
+        configure.append(f"-DCATKIN_ENABLE_TESTING={'ON' if is_tested else 'OFF'}")
+        code, text = yield from self._run([*configure, *self._settings])
+        return code, text, tuple(dict.fromkeys(missing.read_text().split())) if missing.exists() else ()
+
+    def _ninja(self, name: str, jobs: str | None) -> list[str]:
+        parallel = [] if jobs is None else ["-j", jobs]
+        return [self._toolchain.ninja, "-C", str(self._build / name), "-k", "0", *parallel]
 
     def _run(self, command: list[str]) -> Generator[str, None, tuple[int, str]]:
         lines: list[str] = []

@@ -4,7 +4,7 @@ import argparse
 import os
 import re
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -37,7 +37,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--source", help="source space (src)")
     parser.add_argument("--build", help="build space (build)")
     parser.add_argument("--pkg", nargs="+", default=[], help="only these packages")
-    parser.add_argument("--only-pkg-with-deps", nargs="+", default=[], metavar="PKG", help="only these packages")
+    parser.add_argument(
+        "--only-pkg-with-deps", nargs="+", default=[], metavar="PKG", help="these and their dependencies"
+    )
     # Options for the display and for other tools have no effect here.
     for flag in ("ninja", "nmake", "gmake"):
         parser.add_argument(f"--use-{flag}", action="store_true", help=argparse.SUPPRESS)
@@ -77,7 +79,7 @@ def build_workspace(args: argparse.Namespace) -> int:
         print(f"{name}: {space}")
     print(f"Devel space: {workspace.devel}\nInstall space: {workspace.install}")
     known = workspace.packages()
-    packages = _select(known, [*args.pkg, *args.only_pkg_with_deps])
+    packages = _select(known, [*args.pkg, *_with_dependencies(known, args.only_pkg_with_deps)])
     if not (workspace.source / "CMakeLists.txt").exists():
         print(init_workspace(workspace.source, os.environ))
     is_written = write_devel_space(workspace, os.environ)
@@ -98,7 +100,9 @@ def build_workspace(args: argparse.Namespace) -> int:
     fault, results = "", {}
     if made:
         try:
-            results = _build(workspace, known, compiled, args, definitions, underlays(workspace.devel, os.environ))
+            needed = _unbuilt_dependencies(workspace, known, compiled)
+            prefixes = underlays(workspace.devel, os.environ)
+            results = _build(workspace, known, compiled, needed, args, definitions, prefixes)
         except UsageError as error:
             fault = str(error)
     unbuilt: list[CppTarget] = []
@@ -113,6 +117,35 @@ def build_workspace(args: argparse.Namespace) -> int:
         print(f"-- {them}; all else runs as it is{f'; {fault}' if fault else ''}", file=sys.stderr)
     print(f"-- source {workspace.devel}/setup.bash makes the packages known to this shell")
     return 1 if unbuilt and not fault else 0
+
+
+def _with_dependencies(known: Mapping[str, Path], names: Iterable[str]) -> list[str]:
+    """Return packages, and those of the workspace that they need, directly or through others."""
+    from trundle.robots.packages import build_dependencies
+
+    found = list(dict.fromkeys(names))
+    for name in found:  # grows
+        needs = build_dependencies(known[name]) if name in known else []
+        found += [need for need in needs if need in known and need not in found]
+    return found
+
+
+def _unbuilt_dependencies(
+    workspace: "Workspace", known: Mapping[str, Path], packages: Mapping[str, Path]
+) -> dict[str, Path]:
+    """Return the packages that others need, but whose headers or libraries are not yet in the devel space."""
+    from trundle.ros.catkin import report_package
+
+    names = set(_with_dependencies(known, packages)) - packages.keys()
+    needed: dict[str, Path] = {}
+    for name in (name for name in known if name in names):
+        targets = report_package(known, name, os.environ).targets
+        is_exported = (workspace.devel / f"share/{name}/cmake/{name}Config.cmake").exists()
+        if any(target.is_library and target.built is None for target in targets) or (
+            not is_exported and (targets or _has(_EXPORTED_HEADERS, known[name]))
+        ):
+            needed[name] = known[name]
+    return needed
 
 
 def _is_tested(targets: list[str]) -> bool:
@@ -137,11 +170,12 @@ def _build(
     workspace: "Workspace",
     known: Mapping[str, Path],
     packages: Mapping[str, Path],
+    needed: Mapping[str, Path],
     args: argparse.Namespace,
     definitions: list[str],
     underlays: list[str],
 ) -> "dict[str, BuildResult]":
-    """Build packages; print what the tools print."""
+    """Build packages, before them what they need of others; print what the tools print."""
     from trundle.ros.rospy.environment import with_finder
     from trundle.ros.sdk import (
         Headers,
@@ -171,8 +205,12 @@ def _build(
         headers.write_package(name)
         for fault in write_config_headers(name, known[name], workspace.devel / "include", python):
             print(fault, file=sys.stderr)
-    headers.write_included(packages.values())
+    headers.write_included([*needed.values(), *packages.values()])
     link_programs(kit, known, workspace.devel)
+    for name, folder in needed.items():
+        print(f"#### configuring package '{name}', which others need", flush=True)
+        for line in builder.build_exports(name, folder, jobs=args.jobs):
+            print(line, flush=True)
     for name, folder in packages.items():
         print(f"#### building package '{name}'", flush=True)
         for line in builder.build(name, folder, jobs=args.jobs, targets=args.targets):
