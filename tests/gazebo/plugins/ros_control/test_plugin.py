@@ -57,6 +57,25 @@ def test_commands_move_joints_through_their_interfaces(robot: Robot) -> None:
     until(lambda: robot.joint("turn").position[0] == pytest.approx(2.0, abs=5e-3))  # its stop
 
 
+def test_each_joint_of_a_differential_is_driven_in_place_of_a_robots_own_hardware(gazebo: Gazebo) -> None:
+    tilt, roll = (driven(name, "revolute", "PositionJointInterface", limit=_LIMIT) for name in ("tilt", "roll"))
+    split = '<actuator name="tilt_m"><mechanicalReduction>1</mechanicalReduction></actuator></transmission>'
+    roll_links, roll_transmission = roll.split("<transmission", 1)
+    wrist = tilt.removesuffix(split) + roll_transmission.split("</type>", 1)[1]
+    own = "<robotSimType>wrist/WristHardware</robotSimType></plugin>"
+    urdf = fixed_robot(roll_links, wrist).replace("</plugin>", own)
+    kind = "position_controllers/JointPositionController"
+    robot = Robot(gazebo, urdf, {name: {"type": kind, "joint": name} for name in ("tilt", "roll")})
+
+    robot.spawn("tilt", "roll")
+    robot.command("tilt", 0.5)
+    robot.command("roll", -0.25)
+
+    until(lambda: robot.joint("tilt").position[0] == pytest.approx(0.5, abs=2e-3))
+    until(lambda: robot.joint("roll").position[0] == pytest.approx(-0.25, abs=2e-3))
+    robot.close()
+
+
 def test_joint_states_are_published_in_the_order_of_names(robot: Robot) -> None:
     robot.spawn("states")
     messages = robot.gazebo.subscribe("/r/joint_states", "sensor_msgs/JointState")

@@ -54,6 +54,18 @@ def test_a_transmission_that_the_parser_drops_is_left_out(transmission: str, mes
     assert warning.endswith("; it is left out")
 
 
+def test_hardware_of_a_robots_own_drives_each_joint_of_a_differential() -> None:
+    wrist = f'<joint name="a">{EFFORT}</joint><joint name="b">{EFFORT}</joint>{MOTOR}'
+    kind = "<type>transmission_interface/DifferentialTransmission</type>"
+    report = Diagnostics()
+    urdf = f'<robot name="r"><transmission name="wrist">{kind}{wrist}</transmission>{LAST}</robot>'
+
+    joints = read_transmissions(urdf, "r", report, drives_groups=True)
+
+    assert joints == [DrivenJoint(name, "EffortJointInterface") for name in ("a", "b", "z")]
+    assert report.warnings == []
+
+
 def test_a_joint_with_an_empty_name_is_left_out_alone() -> None:
     joints, (warning,) = read(
         f'<transmission name="t">{TYPE}<joint name="">{EFFORT}</joint><joint name="a">{EFFORT}</joint>{MOTOR}'

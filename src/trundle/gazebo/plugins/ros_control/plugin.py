@@ -30,7 +30,8 @@ class GazeboRosControl(Plugin):
 
     Parameters: <robotNamespace> (the model's name), <robotParam> (robot_description), <robotSimType>
     (gazebo_ros_control/DefaultRobotHWSim, or a RobotHWSim in C++ that a package exports), <controlPeriod> [s] (the
-    step), <eStopTopic>. Controllers are Trundle's, or those in C++ that packages export. A joint with gains on
+    step), <eStopTopic>. Controllers are Trundle's, or those in C++ that packages export. In place of another hardware
+    each joint of a transmission of several is driven by its own interface. A joint with gains on
     `gazebo_ros_control/pid_gains/<joint>` gets their efforts; others are driven by a stiff motor. Efforts are added to
     the other plugins' efforts on the joint; the later of two speeds counts; a position overrides both.
     """
@@ -44,6 +45,7 @@ class GazeboRosControl(Plugin):
         self._param = parameters.text("robotParam", "robot_description")
         kind = parameters.text("robotSimType", _DEFAULT_SIM) or _DEFAULT_SIM
         self._tag = tag
+        self._is_default = kind == _DEFAULT_SIM
         self._robot_class = None if kind == _DEFAULT_SIM else find_hardware(kind, sim, model)
         if kind != _DEFAULT_SIM and self._robot_class is None:
             parameters.warn(
@@ -181,7 +183,7 @@ class GazeboRosControl(Plugin):
 
     def _find_joints(self, urdf: str, name: str, gains: RosParameters) -> None:
         """Make the default hardware's joints."""
-        for driven in read_transmissions(urdf, name, self._sim.report):
+        for driven in read_transmissions(urdf, name, self._sim.report, drives_groups=not self._is_default):
             handle = self._model.joint(driven.name)
             if not handle.is_driven:
                 self._node.log.warn(f"joint {driven.name!r} has no axis to drive; its transmission is left out")

@@ -19,7 +19,7 @@ class DrivenJoint:
     interface: Interface
 
 
-def read_transmissions(urdf: str, name: str, report: Diagnostics) -> list[DrivenJoint]:
+def read_transmissions(urdf: str, name: str, report: Diagnostics, *, drives_groups: bool = False) -> list[DrivenJoint]:
     """Read every joint that a transmission drives, in file order; warn of invalid ones and leave them out.
 
     Rules of transmission_interface's TransmissionParser and gazebo_ros_control's DefaultRobotHWSim; an interface in
@@ -29,6 +29,8 @@ def read_transmissions(urdf: str, name: str, report: Diagnostics) -> list[Driven
         urdf: robot as XML.
         name: name of the text in messages.
         report: receives warnings.
+        drives_groups: True if each joint of a transmission of several, as of a differential, is driven by its own
+            interface, as robots' own hardware does; the default hardware drops such transmissions.
 
     Raises:
         DescriptionError: the text is not a URDF.
@@ -38,7 +40,7 @@ def read_transmissions(urdf: str, name: str, report: Diagnostics) -> list[Driven
         raise DescriptionError(root.at, f"a URDF starts with <robot>, not <{root.tag}>", "wrong-root")
     joints: dict[str, DrivenJoint] = {}
     for transmission in root.all("transmission"):
-        if why := _find_fault(transmission):
+        if why := _find_fault(transmission, drives_groups=drives_groups):
             name_attribute = transmission.attribute("name")
             subject = "a transmission" if not name_attribute else f"transmission {name_attribute!r}"
             report.warn(transmission.at, f"{subject} {why}; it is left out", "transmission")
@@ -56,7 +58,7 @@ def read_transmissions(urdf: str, name: str, report: Diagnostics) -> list[Driven
     return list(joints.values())
 
 
-def _find_fault(transmission: XmlNode) -> str | None:
+def _find_fault(transmission: XmlNode, *, drives_groups: bool) -> str | None:
     """Fault for which the original drops a transmission with all its joints; None if it is valid."""
     if not transmission.attribute("name"):
         return "has no name"
@@ -70,7 +72,7 @@ def _find_fault(transmission: XmlNode) -> str | None:
             return f"has no <{tag}>"
     joints = [joint for joint in transmission.all("joint") if joint.attribute("name")]
     count = sum(1 for joint in joints if _interfaces(joint)) or len(joints)
-    if count > 1:
+    if count > 1 and not drives_groups:
         return f"has {count} joints, but gazebo_ros_control drives one joint per transmission"
     return None
 
