@@ -69,6 +69,7 @@ int main() {
   tf::transformKDLToTF(tip, transform);
   CHECK(isNear(transform.getOrigin().x(), tip.p.x()));
   CHECK(isNear(tf2::getYaw(turned.transform.rotation), M_PI / 2));
+  CHECK(tf2::getYaw(geometry_msgs::Quaternion()) == 0.0);  // of zeros, as an unset message has
   geometry_msgs::PoseWithCovarianceStamped sure, other;
   sure.pose.pose.orientation.w = 1;
   sure.pose.covariance[0] = 4;  // x² becomes y² by a quarter turn
