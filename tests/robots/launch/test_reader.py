@@ -83,6 +83,19 @@ def test_a_value_without_type_is_typed_as_roslaunch_does(text: str, value: objec
     assert type(got) is type(value)
 
 
+def test_the_variables_of_a_sourced_ros_are_there() -> None:
+    body = '<param name="a" value="$(env ROS_DISTRO)"/><param name="b" value="$(optenv ROS_VERSION 2)"/>'
+    assert params_of(body) == {"/a": "noetic", "/b": 1}
+    plan = read_launch_text(
+        f"<launch>{body}</launch>",
+        name="t.launch",
+        packages=Folders(),
+        report=Diagnostics(),
+        env={"ROS_DISTRO": "kinetic"},
+    )
+    assert plan.params[0].value == "kinetic"
+
+
 def test_named_types_are_kept() -> None:
     body = '<param name="j" type="str" value="1"/><param name="k" type="double" value="3"/>'
     body += '<param name="l" type="yaml" value="[1, {a: b}]"/>'

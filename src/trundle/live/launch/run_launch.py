@@ -13,7 +13,7 @@ from trundle.base.diagnostics import DescriptionError, Diagnostics, Source, Usag
 from trundle.base.files import is_stream
 from trundle.base.signals import StopFlag, blind_wait, stop_flag
 from trundle.page.network_warning import warn_of_network
-from trundle.robots.launch import LaunchParam, LaunchPlan, read_arguments, read_launch, resolve_params
+from trundle.robots.launch import ROS_VARIABLES, LaunchParam, LaunchPlan, read_arguments, read_launch, resolve_params
 from trundle.robots.packages import Packages
 from trundle.ros import MasterProxy, MasterUnreachableError, master_uri_from_env
 from trundle.spatial import NS_PER_S
@@ -81,6 +81,10 @@ def read_files(words: Sequence[str], options: LaunchOptions, env: dict[str, str]
     """
     if options.master_port is not None:
         env["ROS_MASTER_URI"] = f"http://localhost:{options.master_port}"
+    if options.distro is not None:
+        env["ROS_DISTRO"] = options.distro
+    for name, value in ROS_VARIABLES.items():  # nodes read them, too
+        env.setdefault(name, value)
     packages = Packages(env, start=Path.cwd())
     request = LaunchRequest() if options.core_only else read_request(words, packages)
     try:

@@ -11,5 +11,10 @@ from .plan import (
     ParamType as ParamType,
     ParamValue as ParamValue,
 )
-from .reader import read_arguments as read_arguments, read_launch as read_launch, read_launch_text as read_launch_text
+from .reader import (
+    ROS_VARIABLES as ROS_VARIABLES,
+    read_arguments as read_arguments,
+    read_launch as read_launch,
+    read_launch_text as read_launch_text,
+)
 from .values import convert_value as convert_value

@@ -24,6 +24,8 @@ from .remap_env import read_env, read_remap
 from .scope import Scope
 from .substitution import Substitution
 
+ROS_VARIABLES = {"ROS_DISTRO": "noetic", "ROS_VERSION": "1"}
+"""Environment variables that ROS' setup.bash sets, where no ROS is sourced."""
 _MAX_INCLUDE_DEPTH = 64
 """Limit for files that include themselves; published launch files nest less than a tenth as deep."""
 _MAX_INCLUDES_IN_ERROR = 8
@@ -50,7 +52,7 @@ def read_launch(
         packages: resolves `$(find …)`.
         report: receives warnings: unknown tags and attributes, deprecations, unsupported features.
         arguments: `name:=value` of the command line.
-        env: environment for `$(env …)` and `$(optenv …)`.
+        env: environment for `$(env …)` and `$(optenv …)`; `ROS_VARIABLES` are added.
         namespace: prefix of all names.
         check_readable: refuses files named by elements, for a launch file that is only inspected; None: reads all.
 
@@ -63,7 +65,7 @@ def read_launch(
         reader = _Reader(
             packages=packages,
             report=report,
-            env=env or {},
+            env={**ROS_VARIABLES, **(env or {})},
             command_line=command_line,
             missing=missing,
             files=LaunchFiles(check_readable),
