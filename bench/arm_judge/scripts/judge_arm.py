@@ -38,6 +38,8 @@ _TRIES = 500
 _MOTION_S = 6.0
 """Duration of the motion that the node before has sent [s]."""
 _LOOKS, _LOOK_S = 1000, 0.01
+_STILL_LOOKS, _STILL = 50, 1e-4
+"""Number of looks, without a greater change of a joint [rad] or [m], after which an arm stands."""
 _STEP = 0.02
 """Greatest motion of a joint between two states that are checked [rad] or [m]."""
 
@@ -197,10 +199,7 @@ class Judge:
         self._recorded = []
         is_executed = self.group.execute(plan, wait=True)
         ended = rospy.get_time()
-        for _ in range(_LOOKS):  # a busy machine hands on joint states late
-            if self._newest >= ended:
-                break
-            time.sleep(_LOOK_S)
+        self._wait_still(ended)
         recorded, self._recorded = self._recorded, None
         result: dict[str, Any] = {"kind": kind, "s": seconds, "moved_s": ended - began, "planned": True}
         if not is_executed:
@@ -220,6 +219,19 @@ class Judge:
             contacts.extend(touched)
         result |= {"states": len(recorded), "limits": limits, "contacts": contacts}
         return {**result, "fault": "; ".join(faults)} if faults else result
+
+    def _wait_still(self, since: float) -> None:
+        """Wait until the arm stands after a time [s]: a busy machine hands on joint states late."""
+        before: dict[str, float] = {}
+        looks = 0
+        for _ in range(_LOOKS):
+            now = dict(self._present)
+            moves = before.keys() != now.keys() or any(abs(now[name] - before[name]) > _STILL for name in now)
+            looks = 0 if moves or self._newest < since else looks + 1
+            if looks >= _STILL_LOOKS:
+                return
+            before = now if moves else before
+            time.sleep(_LOOK_S)
 
     def _poses(self, link: str, values: list[float]) -> Any:
         forward: Any = rospy.ServiceProxy("compute_fk", GetPositionFK)
