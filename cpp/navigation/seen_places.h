@@ -34,7 +34,7 @@ class SeenPlaces {
   Point direction_of_surface(const RegisteredScan& scan, std::size_t beam) const;
   bool sees(const RegisteredScan& scan, const Point& place) const;
 
-  const std::vector<double>& bearings_;
+  std::vector<double> bearings_;
   double usable_range_, step_;
 };
 
