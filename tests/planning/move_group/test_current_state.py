@@ -1,4 +1,4 @@
-"""What move_group says about joints whose positions nobody reports."""
+"""move_group warns of joints that are in no joint state."""
 
 from typing import Any
 

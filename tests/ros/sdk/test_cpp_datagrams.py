@@ -22,7 +22,7 @@ from trundle.ros.xmlrpc.rpc_client import call_value
 
 pytestmark = pytest.mark.slow
 MD5SUM = "992ce8a1687cec8c8bd883ec73ca41d1"
-"""Of std_msgs/String."""
+"""MD5 sum of std_msgs/String."""
 FIRST, LATER, PING, ERROR = range(4)
 
 

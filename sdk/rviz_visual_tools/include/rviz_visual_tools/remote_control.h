@@ -19,9 +19,9 @@ class RemoteControl {
   explicit RemoteControl(const ros::NodeHandle& node = ros::NodeHandle());
 
   bool setReadyForNextStep();
-  /** Go on without waiting for anybody. */
+  /** Let waitForNextStep return at once, without a button or Enter. */
   void setAutonomous(bool autonomous = true) { is_autonomous_ = autonomous; }
-  /** As setAutonomous, and through what waitForNextFullStep waits for. */
+  /** As setAutonomous; waitForNextFullStep returns at once, too. */
   void setFullAutonomous(bool autonomous = true);
   bool getAutonomous() const { return is_autonomous_; }
   bool getFullAutonomous() const { return is_fully_autonomous_; }

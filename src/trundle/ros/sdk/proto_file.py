@@ -58,7 +58,7 @@ class ProtoMessage:
 
 @dataclass(slots=True)
 class ProtoFile:
-    """What a file declares."""
+    """Package, imports, messages and enumerations of a .proto file."""
 
     path: Path
     package: str = ""
