@@ -21,8 +21,9 @@ $(READY): $(BUILT) $(CLIENT)
 	@touch $@
 
 # After the client, which its backend would build otherwise. The backend is installed, not isolated in a folder of its own
-# each time: only what changed is compiled again.
-BACKEND = import tomllib; print(*tomllib.load(open('pyproject.toml', 'rb'))['build-system']['requires'], 'cmake', 'ninja')
+# each time: only what changed is compiled again. setuptools and wheel build what PyPI has as sources alone.
+BACKEND = import tomllib; print(*tomllib.load(open('pyproject.toml', 'rb'))['build-system']['requires'], \
+  'cmake', 'ninja', 'setuptools', 'wheel')
 $(BUILT): pyproject.toml constraints.txt CMakeLists.txt $(wildcard cpp/*/*.cc cpp/*/*.h) cpp/scripts.py | $(CLIENT)
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt $$($(BIN)/python -c "$(BACKEND)")
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --no-build-isolation --editable '.[dev]'
