@@ -27,7 +27,7 @@ from .bags import (
     replaced_bag as replaced_bag,
     transform_poses as transform_poses,
 )
-from .clients.action_client import ABORTED as ABORTED, ActionClient as ActionClient
+from .clients.action_client import ABORTED as ABORTED, SUCCEEDED as SUCCEEDED, ActionClient as ActionClient
 from .clients.action_server import ActionResult as ActionResult, ActionServer as ActionServer
 from .clients.reconfigure_client import (
     find_reconfigurable as find_reconfigurable,

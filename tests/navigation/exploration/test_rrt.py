@@ -1,5 +1,6 @@
 """rrt_exploration's nodes, alone and together."""
 
+import time
 from typing import Any
 
 import numpy as np
@@ -94,6 +95,38 @@ def test_the_assigner_drives_to_where_most_is_unknown(graph: Any, move_base: Fak
 
     graph.until(lambda: move_base.goals)
     assert move_base.goals[0] == pytest.approx((1.4, 1.0))
+
+
+def test_a_robot_is_sent_once_to_where_nothing_becomes_known(graph: Any, move_base: FakeMoveBase) -> None:
+    graph.client.advertise("/map", "nav_msgs/OccupancyGrid", latch=True).publish(_HALF_UNKNOWN)
+    points = graph.client.advertise("/filtered_points", "rrt_exploration/PointArray", latch=True)
+    points.publish({"points": [{"x": 0.6, "y": 0.3}, {"x": 1.4, "y": 1.0}]})
+    graph.start("rrt_exploration/assigner.py", rate=20.0, delay_after_assignement=0.05)
+
+    graph.until(lambda: len(move_base.goals) > 1)
+    assert move_base.goals[:2] == [pytest.approx((1.4, 1.0)), pytest.approx((0.6, 0.3))]
+
+
+def test_a_robot_drives_on_until_half_of_what_was_unknown_is_known(graph: Any) -> None:
+    """The other point is nearer, and better worth from the start."""
+    static = StaticTransformBroadcaster(graph.client)
+    static.send_transform(Transform(parent="map", child="base_link", translation=(0.5, 0.5, 0.0)))
+    goals = graph.listen("/move_base/goal", "move_base_msgs/MoveBaseActionGoal")
+    graph.client.advertise("/move_base/status", _STATUS, latch=True).publish({})
+    maps = graph.client.advertise("/map", "nav_msgs/OccupancyGrid", latch=True)
+    maps.publish(_HALF_UNKNOWN)
+    points = graph.client.advertise("/filtered_points", "rrt_exploration/PointArray", latch=True)
+    points.publish({"points": [{"x": 1.5, "y": 1.5}]})
+    graph.start("rrt_exploration/assigner.py", rate=20.0, delay_after_assignement=0.05, info_radius=0.3)
+    graph.until(lambda: goals)
+
+    points.publish({"points": [{"x": 1.5, "y": 1.5}, {"x": 1.4, "y": 0.5}]})
+    seen = time.monotonic() + 0.5
+    graph.until(lambda: time.monotonic() > seen)
+    assert len(goals) == 1
+    maps.publish(grid(np.s_[1:30, 20:39]))
+    graph.until(lambda: len(goals) > 1)
+    assert goals[1].goal.target_pose.pose.position.y == pytest.approx(0.5)
 
 
 def test_two_robots_are_sent_to_different_points(graph: Any) -> None:

@@ -135,11 +135,11 @@ def test_two_rooms_are_mapped_by_exploring(tmp_path: Path) -> None:
 
 
 def test_two_rooms_are_mapped_by_trees_that_grow_at_random(tmp_path: Path) -> None:
-    """rrt_exploration begins with five clicked points; how long it takes is up to the trees: here 85 s."""
+    """rrt_exploration begins with five clicked points; how long it takes is up to the trees: here 36 s."""
     bag, printed = explore(
         tmp_path,
         name="rrt",
-        duration=120,
+        duration=60,
         explorer=_RRT_EXPLORATION,
         plugin='<plugin name="click" filename="libclick.so"/>',
     )

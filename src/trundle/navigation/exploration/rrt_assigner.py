@@ -10,7 +10,7 @@ from trundle.gazebo.nodes import NodeHost
 from trundle.gazebo.nodes.private_parameters import private_parameters
 from trundle.gazebo.nodes.rate import LogThrottle, Rate
 from trundle.robots.parameters import ParamError
-from trundle.ros import ABORTED, ActionClient, Node, TransformError, TransformListener
+from trundle.ros import ABORTED, SUCCEEDED, ActionClient, Node, TransformError, TransformListener
 from trundle.spatial import NS_PER_S
 
 from ..settings import read_settings
@@ -20,8 +20,8 @@ from .rrt_filter import robot_names
 
 _SAME_M = 0.2
 """Distance below which a robot keeps its goal: clusters move a little with each point [m]."""
-_REFUSED_M = 0.3
-"""Distance from a goal that was given up, within which points are left out [m]."""
+_DONE_M = 0.3
+"""Distance from a goal that has ended, within which points are left out [m]."""
 _PATIENCE_NS = 10 * NS_PER_S
 """Time without progress after which a goal is given up."""
 
@@ -50,8 +50,10 @@ class _Robot:
         self.place: Point = (0.0, 0.0)
         self.assigned: Point | None = None
         self.is_busy = False
-        self.refused: list[Point] = []
-        """Goals that move_base aborted, or toward which the robot made no progress."""
+        self.unknown_m2 = 0.0
+        """Unknown area around the goal when it was sent [m²]."""
+        self.done: list[Point] = []
+        """Goals that ended: what is unknown there is seen from elsewhere, or never."""
         self._nearest_m = math.inf
         self._progress_ns = 0
 
@@ -65,8 +67,8 @@ class _Robot:
     def _end(self, point: Point, state: int) -> None:
         if point == self.assigned:
             self.is_busy = False
-        if state == ABORTED:
-            self.refused.append(point)
+        if state in (SUCCEEDED, ABORTED):
+            self.done.append(point)
 
     def move(self, place: Point, now_ns: int) -> None:
         """Store the robot's place; give its goal up if it came no nearer."""
@@ -78,10 +80,10 @@ class _Robot:
             self._nearest_m, self._progress_ns = distance_m, now_ns
         elif now_ns - self._progress_ns > _PATIENCE_NS:
             self.is_busy = False
-            self.refused.append(self.assigned)
+            self.done.append(self.assigned)
 
-    def refuses(self, point: Point) -> bool:
-        return any(math.dist(point, other) < _REFUSED_M for other in self.refused)
+    def has_done(self, point: Point) -> bool:
+        return any(math.dist(point, other) < _DONE_M for other in self.done)
 
 
 class RrtAssigner:
@@ -89,8 +91,9 @@ class RrtAssigner:
 
     Revenue: info_multiplier times the unknown area within info_radius [m²], times hysteresis_gain if the point is
     within hysteresis_radius, minus the distance [m]. Unknown cells near other goals do not count. A free robot gets
-    a point before one that drives; if all drive, one may change its mind. A goal that is hardly another is not sent.
-    Goals that move_base aborted, or to which a robot came no nearer for 10 s, are left out from then on.
+    a point before one that drives; if all drive, one gets another as soon as half of what was unknown around its goal
+    is known. A goal that is hardly another is not sent.
+    Goals that were reached or aborted, or to which a robot came no nearer for 10 s, are left out from then on.
     Parameters, with the original's names and defaults: `RrtAssignerSettings`, and namespace_init_count 1 beside the
     node.
     """
@@ -147,11 +150,12 @@ class RrtAssigner:
         """Send the robot and point with the highest revenue; False: no goal was sent."""
         settings = self._settings
         free = [robot for robot in self._robots if not robot.is_busy]
+        movable = free or [robot for robot in self._robots if self._is_seen(robot)]
         best: tuple[float, _Robot, Point] | None = None
-        for robot in free or self._robots:
+        for robot in movable:
             others = [other.assigned for other in self._robots if other is not robot and other.assigned is not None]
             for point in self._points:
-                if robot.refuses(point):
+                if robot.has_done(point):
                     continue
                 gain = self._gain(point, others)
                 is_near = math.dist(robot.place, point) <= settings.hysteresis_radius
@@ -168,8 +172,13 @@ class RrtAssigner:
         if robot.is_busy and robot.assigned is not None and math.dist(robot.assigned, point) < _SAME_M:
             return False
         robot.send(point, self._frame, self._node.clock.now_ns())
+        robot.unknown_m2 = self._gain(point, [])
         self._node.log.info(f"{robot.name or 'the robot'} assigned to {point[0]:.2f}, {point[1]:.2f}")
         return True
+
+    def _is_seen(self, robot: _Robot) -> bool:
+        """True if half of what was unknown around the robot's goal is known."""
+        return robot.assigned is None or self._gain(robot.assigned, []) <= 0.5 * robot.unknown_m2
 
     def _gain(self, point: Point, others: list[Point]) -> float:
         """Return the unknown area [m²] around a point, without that around the goals of others."""

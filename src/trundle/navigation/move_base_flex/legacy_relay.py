@@ -7,9 +7,7 @@ from typing import Any
 from trundle.gazebo.nodes import NodeHost
 from trundle.gazebo.nodes.private_parameters import private_parameters
 from trundle.robots.parameters import ParamError
-from trundle.ros import ActionClient, ActionResult, ActionServer, Message, Node
-
-_SUCCEEDED = 3
+from trundle.ros import SUCCEEDED, ActionClient, ActionResult, ActionServer, Message, Node
 
 
 class LegacyRelay:
@@ -68,4 +66,4 @@ class LegacyRelay:
             raise
         result = self._client.result
         text = "" if result is None else str(result.message)
-        return ActionResult(status="succeeded" if states[0] == _SUCCEEDED else "aborted", text=text)
+        return ActionResult(status="succeeded" if states[0] == SUCCEEDED else "aborted", text=text)

@@ -9,7 +9,7 @@ from trundle.gazebo.nodes import NodeHost
 from trundle.gazebo.nodes.private_parameters import private_parameters
 from trundle.gazebo.nodes.rate import Rate
 from trundle.robots.parameters import ParamError
-from trundle.ros import ActionClient, Node, TransformError, TransformListener
+from trundle.ros import SUCCEEDED, ActionClient, Node, TransformError, TransformListener
 from trundle.spatial import NS_PER_S
 
 from ..pose_messages import pose_fields, read_pose
@@ -19,7 +19,6 @@ Point = tuple[float, float]
 _CLOSED_M = 0.2
 """Distance from the first point within which another one closes the loop."""
 _MAX_WAYPOINTS = 1000
-_SUCCEEDED = 3
 _CYLINDER, _TEXT, _ADD, _DELETE = 3, 9, 0, 2
 
 
@@ -153,7 +152,7 @@ class WaypointsNavi:
         if index < len(self._points):
             self._advance()
             return
-        if state == _SUCCEEDED:
+        if state == SUCCEEDED:
             self._node.log.info("Go to goal successfully completed")
         else:
             self._node.log.error(f"Go to goal failed: state {state}")

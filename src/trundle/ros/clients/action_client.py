@@ -13,8 +13,10 @@ _PATIENCE_NS = 1_000_000_000
 """Time after which what the server did not get is sent again: a goal that no status lists, a cancellation [ns]."""
 _RUNNING = (0, 1)
 """States of a goal that is pending or active, constants of actionlib_msgs/GoalStatus."""
+SUCCEEDED = 3
+"""State of a goal that was reached, a constant of actionlib_msgs/GoalStatus."""
 ABORTED = 4
-"""State of a goal that the server gave up, a constant of actionlib_msgs/GoalStatus."""
+"""State of a goal that the server gave up, another."""
 
 
 class ActionClient:
