@@ -59,6 +59,13 @@ def test_a_package_on_the_path_is_preferred(tmp_path: Path) -> None:
     assert _printed(code, ROS_PACKAGE_PATH=str(tmp_path)) == "mine: 1 ['State']"
 
 
+def test_a_package_on_the_path_without_definitions_hides_none(tmp_path: Path) -> None:
+    messages = Messages()
+    messages._definitions._on_path = {"costmap_2d": tmp_path}
+
+    assert messages.fields("costmap_2d/VoxelGrid")["size_x"] == "uint32"
+
+
 def test_programs_import_published_messages() -> None:
     code = "from moveit_msgs.msg import MoveGroupAction; from mavros_msgs.srv import SetMode; print(SetMode._type)"
     assert _printed(code) == "mavros_msgs/SetMode"

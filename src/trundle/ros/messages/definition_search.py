@@ -88,8 +88,8 @@ class Definitions:
                 self._read(package, folder)
 
     def load_published(self, package: str) -> None:
-        """Read a published package, unless the package is on the package path; earlier definitions are kept."""
-        if package in self._published or package in self.on_path:
+        """Read a published package, unless the one on the package path has definitions; earlier ones are kept."""
+        if package in self._published or (package in self.on_path and self._has_any(package)):
             return
         self._published.add(package)
         for kind, name, text in published_definitions(package):
@@ -102,6 +102,9 @@ class Definitions:
                 case _:
                     for part, (_, part_text) in split_action(name, text).items():
                         self._add(self.messages, part, part_text, origin)
+
+    def _has_any(self, package: str) -> bool:
+        return any(name.startswith(f"{package}/") for name in (*self.messages, *self.services))
 
     def service_text(self, type_name: str) -> str:
         """Definition of a registered service type; if the installed one differs only in comments, the installed one."""
