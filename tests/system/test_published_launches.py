@@ -31,7 +31,7 @@ _MESSAGES = 3
 _LINES = Path(__file__).with_name("published_launches.txt").read_text().splitlines()
 _BATCHES = [_LINES[start : start + _AT_ONCE] for start in range(0, len(_LINES), _AT_ONCE)]
 _BAD = re.compile(r"\[ERROR\]|\[FATAL\]|: error:|has died|cannot be started|Traceback")
-_NO_CONTROLLER = re.compile(r"Could not load controller '(\w+)': no controller of type '(\w+)/")
+_NO_CONTROLLER = re.compile(r"Could not load controller '(\w+)': (?:no controller of type ')?(\w+)/")
 """Error on a controller that a robot's own package compiles; ros_control's stock controllers must load."""
 _NOT_MOUNTED = (
     "fath_pivot_mount_description/urdf/lockmount.urdf.xacro",
@@ -100,7 +100,7 @@ def _run(line: str, corpus: Path, folder: Path, loop: GraphLoop) -> str:
     text = (home / "log").read_text(errors="replace")
     missing_code = {match[1] for match in _NO_CONTROLLER.finditer(text) if match[2] not in STOCK}
     expected = tuple(
-        words for name in missing_code for words in (f"controller '{name}': no ", f"Failed to load {name}")
+        words for name in missing_code for words in (f"controller '{name}': ", f"Failed to load {name}")
     )
     errors = [row for row in text.splitlines() if _BAD.search(row) and not any(words in row for words in expected)]
     if code != 130 or errors or missing or "killing on exit" not in text:
