@@ -99,9 +99,7 @@ def _run(line: str, corpus: Path, folder: Path, loop: GraphLoop) -> str:
             process.wait()
     text = (home / "log").read_text(errors="replace")
     missing_code = {match[1] for match in _NO_CONTROLLER.finditer(text) if match[2] not in STOCK}
-    expected = tuple(
-        words for name in missing_code for words in (f"controller '{name}': ", f"Failed to load {name}")
-    )
+    expected = tuple(words for name in missing_code for words in (f"controller '{name}': ", f"Failed to load {name}"))
     errors = [row for row in text.splitlines() if _BAD.search(row) and not any(words in row for words in expected)]
     if code != 130 or errors or missing or "killing on exit" not in text:
         return f"{file}: exit code {code}; no messages: {missing}; errors: {errors[:3]}"

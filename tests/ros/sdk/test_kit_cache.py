@@ -83,3 +83,24 @@ def test_a_build_of_the_kit_tells_how_far_it_is(tmp_path: Path, capfd: pytest.Ca
     assert (kit.folder / "ready").exists()
     compiled_kit(tools, environment)
     assert capfd.readouterr().err == ""
+
+
+def test_a_build_that_another_environment_did_not_finish_is_begun_anew(tmp_path: Path) -> None:
+    """CMake refuses a build whose sources lie elsewhere; an own one goes on."""
+    cmake = _program(
+        tmp_path / "cmake",
+        "test ! -e $4/CMakeCache.txt || echo went on >> $4/../went_on",
+        "mkdir -p $4 && echo CMAKE_HOME_DIRECTORY:INTERNAL=$2 > $4/CMakeCache.txt",
+    )
+    ninja = _program(tmp_path / "ninja", 'test -z "$FAILS"')
+    tools = Toolchain(_program(tmp_path / "c++"), "c++ 1", cmake, ninja, None)
+    environment = {"XDG_CACHE_HOME": str(tmp_path / "cache"), "PATH": os.environ["PATH"]}
+    for _ in range(2):
+        with pytest.raises(UsageError, match="cannot be compiled"):
+            compiled_kit(tools, {**environment, "FAILS": "1"})
+    (folder,) = (tmp_path / "cache/trundle/sdk").iterdir()
+    assert (folder / "went_on").read_text() == "went on\n"
+
+    (folder / "build/CMakeCache.txt").write_text("CMAKE_HOME_DIRECTORY:INTERNAL=/elsewhere/sdk\n")
+    compiled_kit(tools, environment)
+    assert (folder / "went_on").read_text() == "went on\n"

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
@@ -136,6 +137,8 @@ def _compile(
     headers = Headers({}, folder / "include", folder / "include", provided=sources)
     headers.write_included([sources])
     build = folder / "build"
+    if _is_of_another_folder(build, sources):
+        shutil.rmtree(build)
     configure = [
         *(toolchain.cmake, "-S", sources, "-B", build, "-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={toolchain.ninja}"),
         *(f"-DCMAKE_CXX_COMPILER={toolchain.compiler}", f"-DCMAKE_CXX_FLAGS={flags}"),
@@ -150,6 +153,14 @@ def _compile(
             log = "\n".join(lines[-_LOG_LINES:])
             raise UsageError(f"the C++ development kit cannot be compiled by {toolchain.compiler}:\n{log}")
     shutil.rmtree(build, ignore_errors=True)
+
+
+def _is_of_another_folder(build: Path, sources: Path) -> bool:
+    """True if an unfinished build has the sources of another environment, which CMake refuses to go on with."""
+    with suppress(FileNotFoundError):
+        lines = (build / "CMakeCache.txt").read_text(encoding="utf-8", errors="replace").splitlines()
+        return f"CMAKE_HOME_DIRECTORY:INTERNAL={sources.as_posix()}" not in lines
+    return False
 
 
 def _run(command: Sequence[str | Path], environment: Mapping[str, str]) -> tuple[int, list[str]]:
