@@ -1,11 +1,14 @@
 """The end of a plan: when the robot is at the goal."""
 
+import math
+from collections import deque
 from typing import Any
 
 import pytest
 
 from trundle.navigation.planners.goal_stop import GoalStop, Velocity
 from trundle.navigation.planners.interfaces import Pose2D
+from trundle.navigation.planners.motion import approach
 from trundle.navigation.planners.trajectory_planner import TrajectorySettings
 
 GOAL = Pose2D(1.0, 0.0, 0.0)
@@ -56,3 +59,31 @@ def test_a_new_goal_is_reached_within_the_tolerance_alone() -> None:
     goal_stop.reset(is_new_goal=True)
 
     assert not goal_stop.is_at_position(Pose2D(1.12, 0.0, 0.0), GOAL)
+
+
+@pytest.mark.parametrize(("acceleration", "period_s", "delay"), [(2.0, 0.05, 3), (2.0, 0.2, 1), (1.0, 0.2, 1)])
+def test_a_base_that_is_slower_than_its_limits_say_ends_its_turn(
+    acceleration: float, period_s: float, delay: int
+) -> None:
+    """Otherwise it swings past the goal's direction, and back, for ever."""
+    settings = TrajectorySettings(yaw_goal_tolerance=0.16, acc_lim_theta=20.0)
+    goal_stop = GoalStop(node=None, limits=settings, stopped_speed=0.01, stopped_turn=0.01)  # type: ignore[arg-type]
+    yaw, turn, seconds = 3.1, 0.0, 0.0
+    commands = deque([0.0] * delay)
+
+    while not goal_stop.is_reached(Pose2D(1.0, 0.0, yaw), GOAL, (0.0, 0.0, turn)):
+        found = goal_stop.command(
+            Pose2D(1.0, 0.0, yaw),
+            GOAL,
+            (0.0, 0.0, turn),
+            least_turn=0.3,
+            most_turn=1.57,
+            period_s=period_s,
+            is_free=lambda _: True,
+        )
+        assert found is not None
+        commands.append(found[2])
+        turn = approach(turn, commands.popleft(), acceleration * period_s)
+        yaw = math.remainder(yaw + turn * period_s, math.tau)
+        seconds += period_s
+        assert seconds < 10.0

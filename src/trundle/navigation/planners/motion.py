@@ -9,6 +9,10 @@ if TYPE_CHECKING:
     from trundle.ros.message_types import nav_msgs
 
 
+_TURN_S = 1.0
+"""Least time for what is left of a turn [s]."""
+
+
 class OdometryReader:
     """The latest velocity on an odometry topic."""
 
@@ -39,6 +43,9 @@ def turning_speed(
 ) -> float:
     """Return the speed [rad/s] for a turn on the spot: as fast as allowed, and able to stop at its end.
 
+    As in the original, a turn takes a second at least for what is left of it: many a base accelerates slower than its
+    limits say, or obeys a moment later, and would pass the end again and again.
+
     Args:
         angle: angle that is left [rad].
         now: present speed [rad/s].
@@ -49,6 +56,6 @@ def turning_speed(
     """
     sign = math.copysign(1.0, angle)
     stopping = math.sqrt(2.0 * acceleration * abs(angle))
-    speed = min(most, stopping, abs(angle) / period_s)
+    speed = min(most, stopping, abs(angle) / max(period_s, _TURN_S))
     reachable = max(sign * now + acceleration * period_s, least)
     return sign * max(min(speed, reachable), min(least, most))
