@@ -2,7 +2,8 @@
 
 `python -m bench.public_navigation CHECKOUTS [NAME …]`: CHECKOUTS is a folder of checkouts, each named OWNER+REPOSITORY;
 NAME a case of `public_navigation.yaml` (all of them). The runs are headless and flat out. The table has what was
-mapped, how far amcl was wrong at first and at last, the goals reached, and what the robot touched.
+mapped, how far amcl was wrong at first and at last, the goals reached, and what the robot touched. A goal that
+move_base calls reached counts if the robot is there: it may have lost itself.
 """
 
 import json
@@ -34,6 +35,7 @@ _DEFAULTS: dict[str, Any] = {
     "model": "robot",
     "radius": 0.3,
     "speed": 0.3,
+    "bend": 0.12,
     "creep": 0.0,
     "max_way": 8.0,
     "localized": True,
@@ -43,7 +45,8 @@ _DEFAULTS: dict[str, Any] = {
     "map_server": False,
     "env": {},
 }
-"""Options of a case. `radius`: that of the robot [m]; `map_s`, `drive_s`: limits [s of the simulation].
+"""Options of a case. `radius`: that of the robot [m]; `bend`: turn while it drives and maps [rad/s]; `map_s`,
+`drive_s`: limits [s of the simulation].
 `tags`: more of the launch file; `map_server`: whether the packages start none."""
 _JUDGE = """<sdf version="1.6"><model name="judge"><static>1</static><pose>0 0 -50 0 0 0</pose><link name="l"/>
 <plugin name="judge" filename="libjudge_navigation.so"><job>{job}</job><out>{out}</out></plugin></model></sdf>"""
@@ -52,6 +55,8 @@ _RECORD = '<node pkg="rosbag" type="record" name="record_map" args="-O {bag} {to
 _MAP_SERVER = '<node pkg="map_server" type="map_server" name="map_server" args="{map}"/>'
 _TIMEOUT_S = 1500.0
 _SUCCEEDED = 3
+_NEAR_M = 0.5
+"""Distance of the robot from a goal that it has reached."""
 _LEAST_WAY_M = 2.0
 """Way to the farther goal below which a case proves nothing."""
 _WORD = re.compile(r"(?:\$\([^)]*\)|\S)+")
@@ -90,7 +95,7 @@ def _run(name: str, case: dict[str, Any], checkouts: Path, folder: Path) -> tupl
     driven = _launch(f"{stem}.drive", case, checkouts, folder, case["navigation"], job)
     if driven is None:
         return f"| {name} | {map_m2} | no result of navigation | – | – | – | – |", False
-    reached = [goal for goal in driven["goals"] if goal.get("state") == _SUCCEEDED]
+    reached = [goal for goal in driven["goals"] if goal.get("state") == _SUCCEEDED and goal["beside_m"] <= _NEAR_M]
     errors = ", ".join(f"{driven[key]:.2f}" if key in driven else "–" for key in ("first_error_m", "error_m"))
     times = ", ".join(f"{goal['way_m']:.1f} m {goal['seconds']:.0f} s" for goal in reached)
     hit = ", ".join(sorted(driven["collisions"])) or "nothing"

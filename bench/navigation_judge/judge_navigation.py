@@ -197,9 +197,9 @@ class JudgeNavigation(Plugin):
             self._turn = 1.0 if ranges[bearings > 0.2].mean() >= ranges[bearings < -0.2].mean() else -1.0
         elif self._is_turning and free > _FREE_AT_M:
             self._is_turning = False
-        speed = self._job["speed"]
-        forward, turn = (self._job["creep"], 0.7 * self._turn) if self._is_turning else (speed, 0.12 * self._turn)
-        self._commands.publish({"linear": {"x": forward}, "angular": {"z": turn}})
+        job = self._job
+        forward, turn = (job["creep"], 0.7) if self._is_turning else (job["speed"], job["bend"])
+        self._commands.publish({"linear": {"x": forward}, "angular": {"z": turn * self._turn}})
 
     # -- on the map
 
