@@ -53,6 +53,27 @@ def test_a_robot_that_rolls_out_of_the_tolerance_has_not_reached_the_goal() -> N
     assert not goal_stop.is_reached(Pose2D(1.12, 0.0, 0.0), GOAL, STANDING)
 
 
+def test_a_robot_drives_on_within_the_tolerance_while_it_comes_nearer() -> None:
+    """An axle behind the robot's origin moves it when it turns: it would leave a goal at whose edge it stops."""
+    goal_stop = stop()
+    arrived = [
+        goal_stop.has_arrived(Pose2D(1.0 - beside, 0.0, 2.0), GOAL, (0.1, 0.0, 0.0))
+        for beside in (0.11, 0.09, 0.06, 0.03, 0.03)
+    ]
+    assert arrived == [False, False, False, False, True]
+    command(goal_stop, Pose2D(0.97, 0.0, 2.0), STANDING)
+
+    assert goal_stop.has_arrived(Pose2D(1.13, 0.0, 1.0), GOAL, STANDING)
+    assert not goal_stop.has_arrived(Pose2D(1.16, 0.0, 1.0), GOAL, STANDING)
+
+
+def test_a_robot_brakes_in_time_for_its_goal() -> None:
+    goal_stop = stop(acc_lim_x=1.0)
+
+    assert not goal_stop.has_arrived(Pose2D(0.92, 0.0, 0.0), GOAL, (0.3, 0.0, 0.0))
+    assert goal_stop.has_arrived(Pose2D(0.96, 0.0, 0.0), GOAL, (0.3, 0.0, 0.0))
+
+
 def test_a_new_goal_is_reached_within_the_tolerance_alone() -> None:
     goal_stop = stop()
     assert goal_stop.is_reached(GOAL, GOAL, STANDING)

@@ -134,7 +134,7 @@ class Follower(ABC):
 
     def _choose(self, pose: Pose2D, plan: NDArray[np.float64], goal: Pose2D) -> Velocity | None:
         least, most = self.turn_limits
-        if self._stop.is_at_position(pose, goal):
+        if self._stop.has_arrived(pose, goal, self.odom.velocity):
             return self._stop.command(
                 pose,
                 goal,

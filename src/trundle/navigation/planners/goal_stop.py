@@ -25,6 +25,9 @@ Velocity = tuple[float, float, float]
 _LEAVING = 1.5
 """Distance at which a robot that turns at the goal has left it, in tolerances: meanwhile its localization moves."""
 
+_NEARER_M = 1e-3
+"""Distance by which a robot comes nearer to the goal with each command until it has arrived [m]."""
+
 
 class GoalStop:
     """Stops within the tolerance of the goal, then turns on the spot."""
@@ -44,12 +47,29 @@ class GoalStop:
         self._stopped_turn = stopped_turn
         self._is_latched = False
         self._is_turning = self._has_turned = False
+        self._nearest_m = math.inf
 
     def reset(self, *, is_new_goal: bool) -> None:
         """Begin a plan."""
         self._is_turning = self._has_turned = False
+        self._nearest_m = math.inf
         if is_new_goal or not self._limits.latch_xy_goal_tolerance:
             self._is_latched = False
+
+    def has_arrived(self, pose: Pose2D, goal: Pose2D, velocity: Velocity) -> bool:
+        """True at the goal's position once the robot has to brake, or comes no nearer.
+
+        So it stops at the goal, not where the tolerance begins: it may turn there about a point beside its origin.
+        """
+        if not self.is_at_position(pose, goal):
+            self._nearest_m = math.inf
+            return False
+        distance = math.hypot(goal.x - pose.x, goal.y - pose.y)
+        speed = math.hypot(velocity[0], velocity[1])
+        braking = speed**2 / (2.0 * max(self._limits.acc_lim_x, 1e-3))
+        has_arrived = self._has_turned or distance <= braking or distance >= self._nearest_m - _NEARER_M
+        self._nearest_m = -math.inf if has_arrived else distance
+        return has_arrived
 
     def is_at_position(self, pose: Pose2D, goal: Pose2D) -> bool:
         """True within the tolerance of the goal's position; with a latch, from the first time on.
