@@ -1,5 +1,6 @@
 """The slam_gmapping node on a graph."""
 
+import itertools
 import math
 from typing import Any
 
@@ -66,13 +67,39 @@ def test_a_map_grows_by_patches_of_32_cells_where_something_was_seen_beyond() ->
     assert frame.grown((0, 0, 2**30, 2**30), 0.05) == frame  # more than a map may have
 
 
+def test_bounds_without_room_are_of_a_map_that_grows_from_nothing(graph) -> None:
+    """Launch files have xmin 10 and xmax -10; the original's map is empty, and grows."""
+    maps = graph.listen("/map", "nav_msgs/OccupancyGrid")
+    bounds = {"xmin": 10.0, "ymin": 10.0, "xmax": -10.0, "ymax": -10.0}
+    graph.start("gmapping/slam_gmapping", particles=3, map_update_interval=0.0, **bounds)
+    static, odometry = StaticTransformBroadcaster(graph.client), TransformBroadcaster(graph.client)
+    static.send_transform(Transform(parent="base_link", child="base_scan"))
+    scans = graph.advertise("/scan", "sensor_msgs/LaserScan")
+    stamps = itertools.count(10**9, 10**8)
+
+    def measure() -> bool:
+        stamp_ns = next(stamps)
+        scans.publish(scan_fields(ranges_at(WORLD, (1.0, 1.0, 0.0)), stamp_ns))
+        odometry.send_transform(
+            Transform(parent="odom", child="base_link", stamp_ns=stamp_ns, translation=(1.0, 1.0, 0.0))
+        )
+        return bool(maps)
+
+    graph.until(measure)
+
+    info = maps[-1].info
+    cells = np.array(maps[-1].data, dtype=np.int8).reshape(info.height, info.width)
+    row, column = (round((value - info.origin.position.x) / 0.05) for value in (1.0, 3.5))
+    assert info.origin.position.x == info.origin.position.y
+    assert 100 in cells[row, column - 1 : column + 2]
+
+
 @pytest.mark.parametrize(
     ("values", "message"),
     [
         ({"delta": 0.0}, "delta must be > 0"),
         ({"particles": -3}, "particles must be > 0"),
         ({"xmax": 1e9, "ymax": 1e9}, "at most 400000000"),
-        ({"xmin": 5.0, "xmax": -5.0}, "xmin … ymax"),
         ({"sigma": math.inf}, "sigma"),
     ],
 )

@@ -45,6 +45,12 @@ def _grown(first: int, count: int, seen_first: int, seen_last: int, margin: int)
     return first - before, before + count + after
 
 
+def _begun(low_m: float, high_m: float, delta_m: float) -> tuple[int, int]:
+    """Return first cell and number of cells along one axis before the first scan."""
+    count = max(math.ceil((high_m - low_m) / delta_m - 1e-6), 0) // _PATCH * _PATCH
+    return math.floor((low_m if count else (low_m + high_m) / 2.0) / delta_m + 0.5), count
+
+
 class GmappingSettings(Struct, frozen=True, kw_only=True):
     """Lengths [m], angles [rad], times [s]."""
 
@@ -91,10 +97,12 @@ class GmappingSettings(Struct, frozen=True, kw_only=True):
 
     @property
     def frame(self) -> "MapFrame":
-        """The map before the first scan: whole patches from xmin and ymin on, as in gmapping."""
-        first_column, first_row = math.floor(self.xmin / self.delta + 0.5), math.floor(self.ymin / self.delta + 0.5)
-        across, along = self.xmax - self.xmin, self.ymax - self.ymin
-        width, height = (math.ceil(length / self.delta - 1e-6) // _PATCH * _PATCH for length in (across, along))
+        """The map before the first scan: whole patches from xmin and ymin on, as in gmapping.
+
+        Where the bounds leave no room, as 10 … -10, it begins with nothing at their middle, and grows.
+        """
+        first_column, width = _begun(self.xmin, self.xmax, self.delta)
+        first_row, height = _begun(self.ymin, self.ymax, self.delta)
         return MapFrame(first_column, first_row, width, height)
 
     def slam_options(self, *, range_max_m: float) -> _mapping.SlamOptions:
@@ -135,7 +143,7 @@ def read_settings(parameters: RosParameters) -> GmappingSettings:
         if not getattr(settings, name) > 0:
             raise ParamError(f"parameter {parameters.namespace}/{name} must be > 0, got {getattr(settings, name):g}")
     _, _, width, height = settings.frame
-    if width < 1 or height < 1 or width * height > _MAX_CELLS:
+    if width * height > _MAX_CELLS:
         raise ParamError(
             f"{parameters.namespace}: xmin … ymax make a map of {width} × {height} cells; at most {_MAX_CELLS}"
         )
