@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "range_scan.h"
+
 namespace trundle::navigation {
 
 namespace {
@@ -22,24 +24,25 @@ GridSlam::GridSlam(const SlamOptions& options, std::vector<double> bearings, con
       places_(bearings_, std::min(options.usable_range, options.max_range)),
       matcher_(options.match),
       random_(seed),
-      particles_(static_cast<std::size_t>(std::max(options.particles, 1)), Particle{pose, HitMap(options.delta)}),
+      particles_(static_cast<std::size_t>(std::max(options.particles, 1)), Particle{pose, pose, HitMap(options.delta)}),
       counts_(options.delta) {}
 
 // As gmapping's motion model: noise grows with the distances along each axis, not with their squares.
-void GridSlam::drift(PlanarPose& pose, const PlanarPose& motion) {
+void GridSlam::drift(Particle& particle, const PlanarPose& motion) {
   const auto& [srr, srt, str, stt] = std::array<double, 4>{options_.srr, options_.srt, options_.str, options_.stt};
   const double forward = std::abs(motion.x), sideways = std::abs(motion.y), turn = std::abs(motion.yaw);
   const PlanarPose noisy{
       motion.x + random_.gaussian(srr * forward + str * turn + 0.3 * srr * sideways),
       motion.y + random_.gaussian(srr * sideways + str * turn + 0.3 * srr * forward),
       normalized_angle(motion.yaw + random_.gaussian(stt * turn + srt * std::hypot(motion.x, motion.y)))};
-  pose = compose(pose, noisy);
+  particle.pose = compose(particle.pose, noisy);
+  particle.expected = compose(particle.expected, motion);
 }
 
 bool GridSlam::process(const PlanarPose& odometry, double time_s, const std::vector<double>& ranges) {
   if (has_started_) {
     const PlanarPose motion = compose(inverse(odometry_), odometry);
-    for (Particle& particle : particles_) drift(particle.pose, motion);
+    for (Particle& particle : particles_) drift(particle, motion);
     driven_ += std::hypot(motion.x, motion.y);
     turned_ += std::abs(motion.yaw);
   }
@@ -64,14 +67,23 @@ bool GridSlam::process(const PlanarPose& odometry, double time_s, const std::vec
   return true;
 }
 
-std::vector<BeamEnd> GridSlam::beam_ends(const std::vector<float>& ranges) const {
+bool GridSlam::has_end(float range) const { return range > 0.0f && double{range} <= options_.usable_range; }
+
+// Ends of the last scan's beams.
+std::vector<BeamEnd> GridSlam::beam_ends() const {
   const double before = std::numbers::sqrt2 * options_.delta;
   std::vector<BeamEnd> beams;
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
-    const double range = double{ranges[i]};
-    if (range == 0.0 || range > options_.usable_range) continue;
-    const double c = std::cos(bearings_[i]), s = std::sin(bearings_[i]);
-    beams.push_back({range * c, range * s, (range - before) * c, (range - before) * s});
+  RangeScan scan;
+  for (std::size_t i = 0; i < scans_.back().size(); ++i) {
+    if (!has_end(scans_.back()[i])) continue;
+    const double range = double{scans_.back()[i]}, c = std::cos(bearings_[i]), s = std::sin(bearings_[i]);
+    beams.push_back({range * c, range * s, (range - before) * c, (range - before) * s, 0.0, 0.0});
+    scan.hits.push_back({range * c, range * s});
+  }
+  find_normals(scan);
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    beams[i].normal_x = scan.normals[i].x;
+    beams[i].normal_y = scan.normals[i].y;
   }
   return beams;
 }
@@ -87,11 +99,16 @@ std::vector<BeamEnd> GridSlam::comparable_ends(std::size_t& count) const {
     node = one.parent;
   }
   const std::vector<char> is_seen = places_.seen_ends({particle.pose, &scans_.back()}, earlier);
-  std::vector<float> ranges = scans_.back();
-  count = beam_ends(ranges).size();
-  for (std::size_t i = 0; i < ranges.size(); ++i)
-    if (is_seen[i] == 0) ranges[i] = 0.0f;
-  return beam_ends(ranges);
+  const std::vector<BeamEnd> beams = beam_ends();
+  count = beams.size();
+  std::vector<BeamEnd> seen;
+  std::size_t number = 0;
+  for (std::size_t i = 0; i < is_seen.size(); ++i) {
+    if (!has_end(scans_.back()[i])) continue;
+    if (is_seen[i] != 0) seen.push_back(beams[number]);
+    ++number;
+  }
+  return seen;
 }
 
 void GridSlam::match() {
@@ -101,7 +118,7 @@ void GridSlam::match() {
   if (count > 0 && share < kLeastShare) return;
   int unmatched = 0;
   for (Particle& particle : particles_) {
-    const Match match = matcher_.optimize(particle.map, particle.pose, beams);
+    const Match match = matcher_.optimize(particle.map, particle.expected, particle.pose, beams);
     if (match.score > options_.minimum_score * share) particle.pose = match.pose;
     else ++unmatched;
     particle.log_weight += matcher_.log_likelihood(particle.map, particle.pose, beams);
@@ -156,8 +173,9 @@ void GridSlam::resample_if_needed() {
 }
 
 void GridSlam::register_scan() {
-  const std::vector<BeamEnd> beams = beam_ends(scans_.back());
+  const std::vector<BeamEnd> beams = beam_ends();
   for (Particle& particle : particles_) {
+    particle.expected = particle.pose;
     nodes_.push_back({particle.pose, particle.node, static_cast<int>(scans_.size()) - 1});
     particle.node = static_cast<int>(nodes_.size()) - 1;
     const double c = std::cos(particle.pose.yaw), s = std::sin(particle.pose.yaw);

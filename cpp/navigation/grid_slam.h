@@ -50,6 +50,7 @@ class GridSlam {
  private:
   struct Particle {
     PlanarPose pose;
+    PlanarPose expected;  // by the odometry since the last scan, without noise
     HitMap map;
     double log_weight = 0.0;  // since the last resampling
     int node = -1;            // of its trajectory
@@ -61,11 +62,12 @@ class GridSlam {
 
   std::size_t best() const;
   std::vector<double> weights() const;
-  void drift(PlanarPose& pose, const PlanarPose& motion);
+  void drift(Particle& particle, const PlanarPose& motion);
   void match();
   void resample_if_needed();
   void register_scan();
-  std::vector<BeamEnd> beam_ends(const std::vector<float>& ranges) const;
+  bool has_end(float range) const;
+  std::vector<BeamEnd> beam_ends() const;
   std::vector<BeamEnd> comparable_ends(std::size_t& count) const;
   void count(const Node& node);
   void count_new();

@@ -1,5 +1,6 @@
-// Pose of a scan in a map of hits, by hill climbing, and its likelihood: as in Grisetti, Stachniss and Burgard,
-// "Improved Techniques for Grid Mapping with Rao-Blackwellized Particle Filters" (2007), with gmapping's parameters.
+// Pose of a scan in a map of hits, by hill climbing and Gauss-Newton steps, and its likelihood: as in Grisetti,
+// Stachniss and Burgard, "Improved Techniques for Grid Mapping with Rao-Blackwellized Particle Filters" (2007), with
+// gmapping's parameters.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +19,10 @@ struct Hits {
 
 using HitMap = PatchMap<Hits>;
 
-// A beam's end in the laser's frame [m], and a point shortly before the end, which must be free.
+// A beam's end in the laser's frame [m], a point shortly before the end, which must be free, and the unit normal of the
+// surface that was hit; zeros: unknown.
 struct BeamEnd {
-  double x, y, before_x, before_y;
+  double x, y, before_x, before_y, normal_x, normal_y;
 };
 
 struct MatchOptions {
@@ -41,11 +43,17 @@ class ScanMatcher {
  public:
   explicit ScanMatcher(const MatchOptions& options) : options_(options) {}
 
-  Match optimize(const HitMap& map, const PlanarPose& start, const std::vector<BeamEnd>& beams) const;
+  // expected: pose by the odometry; drawn: a pose near it, by the odometry's noise. The score is that before the
+  // Gauss-Newton steps.
+  Match optimize(const HitMap& map, const PlanarPose& expected, const PlanarPose& drawn,
+                 const std::vector<BeamEnd>& beams) const;
   double log_likelihood(const HitMap& map, const PlanarPose& pose, const std::vector<BeamEnd>& beams) const;
 
  private:
   double score(const HitMap& map, const PlanarPose& pose, const std::vector<BeamEnd>& beams) const;
+  Match climb(const HitMap& map, Match best, const std::vector<BeamEnd>& beams) const;
+  PlanarPose align(const HitMap& map, PlanarPose pose, const PlanarPose& prior,
+                   const std::vector<BeamEnd>& beams) const;
 
   MatchOptions options_;
 };
