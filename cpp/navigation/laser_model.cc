@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planar_fit.h"
+
 namespace trundle::navigation {
 
 // Numbers of the beams in the scan, and their end points in the robot's frame, in cells.
@@ -22,6 +24,8 @@ constexpr std::size_t kAskedParticles = 32;
 constexpr double kKnownShare = 0.7;
 constexpr double kStepCells = 0.5;
 constexpr double kNearCells = 2.0;  // a wall may be thicker than mapped
+constexpr int kAlignments = 5;
+constexpr double kReach = 0.1;  // deviation of a beam's end from what the map shows [m]
 
 std::size_t beam_step(const LaserScan& scan, int max_beams) {
   if (scan.ranges.empty() || max_beams < 2) return std::max<std::size_t>(1, scan.ranges.size());
@@ -134,6 +138,43 @@ bool LaserModel::is_known(const PlanarPose& laser, double range, double bearing)
     if (map_->cells[cell] == 0) return length == end;
   }
   return false;
+}
+
+PlanarPose LaserModel::align(const PlanarPose& prior, const LaserScan& scan) const {
+  const PlanarPose laser = compose(prior, {scan.x, scan.y, 0.0});
+  if (distances_.empty() || !std::isfinite(laser.x + laser.y)) return prior;
+  std::vector<Point> ends;
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
+    const double range = scan.ranges[i], bearing = scan.bearings[i];
+    if (range < scan.range_max && is_known(laser, range, bearing))
+      ends.push_back({scan.x + range * std::cos(bearing), scan.y + range * std::sin(bearing)});
+  }
+  PlanarPose pose = prior;
+  for (int i = 0; i < kAlignments; ++i) pose = align_once(pose, prior, ends);
+  return pose;
+}
+
+PlanarPose LaserModel::align_once(const PlanarPose& pose, const PlanarPose& prior,
+                                  const std::vector<Point>& ends) const {
+  PlanarFit fit(pose, prior);
+  const double c = std::cos(pose.yaw), s = std::sin(pose.yaw), scale = 1.0 / map_->resolution;
+  const auto width = static_cast<std::size_t>(map_->width);
+  for (const Point& end : ends) {
+    const double turned_x = c * end.x - s * end.y, turned_y = s * end.x + c * end.y;
+    const double x = (pose.x + turned_x - map_->origin_x) * scale - 0.5;
+    const double y = (pose.y + turned_y - map_->origin_y) * scale - 0.5;
+    if (!(x >= 0.0 && y >= 0.0 && x < map_->width - 1 && y < map_->height - 1)) continue;
+    const auto column = static_cast<std::size_t>(x), row = static_cast<std::size_t>(y);
+    const double u = x - static_cast<double>(column), v = y - static_cast<double>(row);
+    const float* cell = distances_.data() + row * width + column;
+    const double below = double{cell[1]} - double{cell[0]}, above = double{cell[width + 1]} - double{cell[width]};
+    const double left = double{cell[width]} - double{cell[0]}, right = double{cell[width + 1]} - double{cell[1]};
+    const double distance = double{cell[0]} + u * below + v * (left + u * (right - left));
+    const double away_x = scale * (below + v * (above - below)), away_y = scale * (left + u * (right - left));
+    fit.add(away_x, away_y, turned_x * away_y - turned_y * away_x, -distance,
+            std::exp(-distance * distance / (2.0 * kReach * kReach)));
+  }
+  return fit.moved();
 }
 
 namespace {

@@ -47,11 +47,18 @@ class LaserModel {
   // that are counted; without any, no weight changes, and there is no factor.
   std::optional<double> weigh(std::vector<Particle>& particles, const LaserScan& scan, const Agreement& agreement);
 
+  // Pose near a prior one from which the ends of all known beams are nearest to what the map shows. The prior one
+  // itself with the beam model, which has no distances.
+  PlanarPose align(const PlanarPose& prior, const LaserScan& scan) const;
+
   // True if a scan's beams are multiplied; the other models add them.
   bool is_sharp() const { return options_.kind == LaserKind::kLikelihoodFieldProb; }
 
  private:
   struct Beams;
+  struct Point {
+    double x, y;
+  };
 
   Beams used_beams(const LaserScan& scan) const;
   void fill_table(double range_max);
@@ -59,6 +66,7 @@ class LaserModel {
   double weigh_by_table(std::vector<Particle>& particles, const Beams& beams, double share,
                         const std::vector<char>& is_used) const;
   void keep_known(const std::vector<Particle>& particles, const LaserScan& scan, Beams& beams) const;
+  PlanarPose align_once(const PlanarPose& pose, const PlanarPose& prior, const std::vector<Point>& ends) const;
   bool is_known(const PlanarPose& laser, double range, double bearing) const;
   std::vector<char> agreed_beams(const std::vector<Particle>& particles, const Beams& beams) const;
 

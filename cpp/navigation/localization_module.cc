@@ -61,14 +61,25 @@ Floats distances(const OccupancyMap& map, double limit) {
   return array_of<Floats>(std::move(result), static_cast<std::size_t>(map.height), static_cast<std::size_t>(map.width));
 }
 
-void weigh(ParticleFilter& filter, LaserModel& model, const Numbers& ranges, const Numbers& bearings, double range_max,
-           double x, double y) {
+LaserScan scan_of(const Numbers& ranges, const Numbers& bearings, double range_max, double x, double y) {
   if (ranges.size() != bearings.size()) throw nb::value_error("each range has a bearing");
   if (!(range_max > 0.0)) throw nb::value_error("the maximum range is positive");
-  const LaserScan scan{x, y, range_max, std::vector<double>(ranges.data(), ranges.data() + ranges.size()),
-                       std::vector<double>(bearings.data(), bearings.data() + bearings.size())};
+  return {x, y, range_max, std::vector<double>(ranges.data(), ranges.data() + ranges.size()),
+          std::vector<double>(bearings.data(), bearings.data() + bearings.size())};
+}
+
+void weigh(ParticleFilter& filter, LaserModel& model, const Numbers& ranges, const Numbers& bearings, double range_max,
+           double x, double y) {
+  const LaserScan scan = scan_of(ranges, bearings, range_max, x, y);
   const nb::gil_scoped_release release;
   filter.weigh(model, scan);
+}
+
+Tuple align(const LaserModel& model, const Tuple& prior, const Numbers& ranges, const Numbers& bearings,
+            double range_max, double x, double y) {
+  const LaserScan scan = scan_of(ranges, bearings, range_max, x, y);
+  const nb::gil_scoped_release release;
+  return tuple_of(model.align(pose_of(prior), scan));
 }
 
 Doubles particles_of(const ParticleFilter& filter) {
@@ -107,7 +118,8 @@ void bind_laser(nb::module_& module) {
           "kind", [](const LaserOptions& options) { return static_cast<int>(options.kind); },
           [](LaserOptions& options, int kind) { options.kind = static_cast<LaserKind>(kind); });
   nb::class_<LaserModel>(module, "LaserModel")
-      .def(nb::init<const LaserOptions&, std::shared_ptr<OccupancyMap>>(), "options"_a, "map"_a, Release());
+      .def(nb::init<const LaserOptions&, std::shared_ptr<OccupancyMap>>(), "options"_a, "map"_a, Release())
+      .def("align", &align, "prior"_a, "ranges"_a, "bearings"_a, nb::kw_only(), "range_max"_a, "x"_a, "y"_a);
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ def test_amcl_finds_a_driving_robot_from_a_wrong_guess(house: Path, tmp_path: Pa
         for stamp, x, y, _ in late
     ]
     assert len(late) > 10
-    assert np.median(errors) < 0.06
+    assert np.median(errors) < 0.03
 
 
 @pytest.mark.parametrize("nodes", ["amcl", "gmapping", "hector", "karto"])

@@ -86,8 +86,8 @@ def test_a_robot_is_localized_as_it_drives_and_odom_is_placed_in_the_map(graph, 
         robot.measure_until((1.0 + 0.25 * step, 1.0, 0.05 * step), lambda number=step: len(poses) > number)
 
     pose = poses[-1]
-    assert (pose.pose.pose.position.x, pose.pose.pose.position.y) == pytest.approx((3.75, 1.0), abs=0.05)
-    assert 2 * math.asin(pose.pose.pose.orientation.z) == pytest.approx(0.55, abs=math.radians(1.5))
+    assert (pose.pose.pose.position.x, pose.pose.pose.position.y) == pytest.approx((3.75, 1.0), abs=0.03)
+    assert 2 * math.asin(pose.pose.pose.orientation.z) == pytest.approx(0.55, abs=math.radians(1.0))
     assert 10**9 < to_nsec(pose.header.stamp) <= robot.stamp_ns
     assert pose.header.frame_id == clouds[-1].header.frame_id == "map"
     assert 100 <= len(clouds[-1].poses) <= 5000
@@ -95,8 +95,8 @@ def test_a_robot_is_localized_as_it_drives_and_odom_is_placed_in_the_map(graph, 
     graph.until(lambda: buffer.can_transform("map", "odom"))
     assert pose.pose.covariance[0] > 0.0
     map_from_odom = buffer.lookup_transform("map", "odom")
-    assert map_from_odom.pose.position[:2] == pytest.approx(DRIFT[:2], abs=0.1)
-    assert map_from_odom.pose.rpy[2] == pytest.approx(DRIFT[2], abs=math.radians(1.5))
+    assert map_from_odom.pose.position[:2] == pytest.approx(DRIFT[:2], abs=0.05)
+    assert map_from_odom.pose.rpy[2] == pytest.approx(DRIFT[2], abs=math.radians(1.0))
 
 
 def test_a_late_listener_sees_the_particles_where_they_are_now(graph, robot: Robot) -> None:

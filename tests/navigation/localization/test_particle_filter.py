@@ -120,6 +120,37 @@ def test_the_true_pose_weighs_most(kind: int, has_skipping: bool) -> None:
     assert rows[:, 3].sum() == pytest.approx(1.0)
 
 
+def align(model: LaserModel, prior: tuple[float, float, float], ranges: Any) -> tuple[float, float, float]:
+    return model.align(prior, ranges, bearings(), range_max=RANGE_MAX, x=0.0, y=0.0)
+
+
+@pytest.mark.parametrize("kind", [FIELD, PROB])
+def test_a_pose_is_aligned_with_the_walls_among_people(kind: int) -> None:
+    """Every third beam ends at somebody."""
+    true = (1.0, 1.0, 0.3)
+    ranges = ranges_at(house_map(), true) + np.random.default_rng(1).normal(0.0, 0.01, len(bearings()))
+    ranges[::3] = 0.4
+    around = OccupancyMap(np.pad(house_cells(), 4, constant_values=-1), resolution=RESOLUTION, x=-0.2, y=-0.2)
+    laser_options = LaserOptions()
+    laser_options.kind = kind
+
+    x, y, yaw = align(LaserModel(laser_options, around), (1.06, 0.95, 0.34), ranges)
+
+    assert (x, y) == pytest.approx(true[:2], abs=0.4 * RESOLUTION)
+    assert yaw == pytest.approx(true[2], abs=math.radians(0.5))
+
+
+def test_along_a_hall_a_pose_stays_where_it_was() -> None:
+    cells = np.zeros((80, 600), dtype=np.int8)
+    cells[[0, -1], :] = cells[:, [0, -1]] = 100
+    hall = OccupancyMap(cells, resolution=RESOLUTION, x=0.0, y=0.0)
+    model = LaserModel(LaserOptions(), hall)
+
+    assert align(model, (15.07, 2.05, 0.02), ranges_at(hall, (15.0, 2.0, 0.0))) == pytest.approx(
+        (15.07, 2.0, 0.0), abs=0.01
+    )
+
+
 def test_beams_that_few_particles_explain_are_skipped() -> None:
     """People around the robot: half of the beams end at 0.4 m."""
     world, true = house_map(), (1.0, 1.0, 0.3)
@@ -253,8 +284,9 @@ def test_a_robot_that_leaves_the_known_part_of_a_map_is_not_held_back(kind: int,
         pose = (1.0 + 0.2 * (i + 1), 2.0, 0.0)
         particles.move(OdometryModel(DIFF, (0.1, 0.1, 0.1, 0.1, 0.1)), (0.2 * i, 0.0, 0.0), (0.2 * (i + 1), 0.0, 0.0))
         weigh(particles, model, ranges_at(hall, pose))
-        (x, y, _), _ = particles.estimate()
-        errors.append(math.hypot(x - pose[0], y - pose[1]))
+        mean, _ = particles.estimate()
+        x, y, _ = align(model, mean, ranges_at(hall, pose))
+        errors += [math.dist(mean[:2], pose[:2]), math.hypot(x - pose[0], y - pose[1])]
         particles.resample()
 
     assert max(errors) < 0.2
@@ -285,5 +317,7 @@ def test_hostile_inputs_are_refused_or_leave_the_weights_finite() -> None:
             model = LaserModel(laser_options, world)
             particles.weigh(model, ranges, np.full(5, math.nan), range_max=8.0, x=math.nan, y=0.0)
             particles.estimate()
+            for x, y in ((math.nan, 1e300), (1e300, 1.0), (1.0, 1.0)):
+                model.align((x, y, 0.0), ranges, np.full(5, math.nan), range_max=8.0, x=0.0, y=0.0)
             particles.resample()
             assert np.isfinite(particles.particles()[:, 3]).all()

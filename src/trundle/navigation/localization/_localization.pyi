@@ -45,6 +45,17 @@ class LaserModel:
     """Likelihood of scans in a map."""
 
     def __init__(self, options: LaserOptions, map: OccupancyMap) -> None: ...
+    def align(
+        self,
+        prior: tuple[float, float, float],
+        ranges: NDArray[np.float64],
+        bearings: NDArray[np.float64],
+        *,
+        range_max: float,
+        x: float,
+        y: float,
+    ) -> tuple[float, float, float]:
+        """Return the pose near a prior one that fits a scan best; where that tells nothing, the prior one."""
 
 class OdometryModel:
     """Noise of the odometry."""

@@ -44,8 +44,8 @@ class Amcl:
 
     Parameters, with the original's names and defaults: `AmclSettings`, initial_pose_x, _y, _a, initial_cov_xx, _yy,
     _aa, std_warn_level_x, _y, _yaw. Services global_localization, request_nomotion_update and set_map. Random numbers
-    have a fixed seed. The pose is the mean of the heaviest cluster by the weights of the last scan, before resampling;
-    motion between the stamp of an initial pose and the first scan is added to it.
+    have a fixed seed. The pose is the mean of the heaviest cluster by the weights of the last scan, before resampling,
+    aligned with the scan; motion between the stamp of an initial pose and the first scan is added to it.
     """
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
@@ -275,7 +275,8 @@ class Amcl:
         if self._odom_from_base is not None:
             particles.move(self._odometry, self._odom_from_base, odom)
         self._odom_from_base = odom
-        particles.weigh(self._laser, beams.ranges, beams.bearings, range_max=beams.range_max_m, x=beams.x, y=beams.y)
+        laser = {"range_max": beams.range_max_m, "x": beams.x, "y": beams.y}
+        particles.weigh(self._laser, beams.ranges, beams.bearings, **laser)
         self._updates += 1
         is_resampled = self._updates % max(self._settings.resample_interval, 1) == 0
         estimate = particles.estimate() if is_resampled or is_first else None
@@ -283,7 +284,9 @@ class Amcl:
             particles.resample()
         self._publish_cloud(particles)
         if estimate is not None:
-            self._publish_pose(*estimate, stamp_ns, odom_pose)
+            mean, covariance = estimate
+            found = self._laser.align(mean, beams.ranges, beams.bearings, **laser)
+            self._publish_pose(found, covariance, stamp_ns, odom_pose)
 
     def _publish_pose(self, pose: PlanarPose, covariance: tuple[float, ...], stamp_ns: int, odom_pose: Pose) -> None:
         map_from_base = from_planar(*pose)

@@ -21,7 +21,7 @@ Pose = tuple[float, float, float]
 _LOOKAHEAD_M = 0.5
 _LEVEL = 0.7
 """Vertical part of a contact's normal below which it is a collision."""
-_BEGIN_NS, _HEARD_NS, _SETTLE_NS = 2_000_000_000, 300_000_000, 4_000_000_000
+_BEGIN_NS, _SETTLE_NS = 2_000_000_000, 4_000_000_000
 _GUESS_ERROR = (0.3, -0.2, 0.25)
 """Error of the initial pose: x, y [m], yaw [rad]."""
 
@@ -139,10 +139,7 @@ class Guide(Plugin):
                 self._begun, self._since_ns = True, self._now_ns
             return
         if (found := self._in_map()) is not None:
-            error = math.dist(found[:2], in_map[:2])
-            self._result["error_m"] = error
-            if self._now_ns - self._since_ns > _HEARD_NS:
-                self._result.setdefault("first_error_m", error)
+            self._result["error_m"] = math.dist(found[:2], in_map[:2])
         if not self._is_driving and self._now_ns - self._since_ns > _SETTLE_NS:
             count = len(self._result["goals"])
             if count == len(self._job["goals"]):
