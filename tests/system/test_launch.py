@@ -223,6 +223,22 @@ def test_a_second_launch_replaces_nodes_of_equal_names(start, trundle, until, pa
     assert first.interrupt() == 130
 
 
+def test_a_second_launch_leaves_the_clock_of_the_first(start, trundle, until, package: Path) -> None:
+    """Each follows /clock as a node of its own."""
+    (package / "main.launch").write_text(
+        '<launch><arg name="s" default="1000"/><param name="/use_sim_time" value="true"/>'
+        '<node pkg="p" type="talk" name="$(anon n)" args="$(arg s)" output="screen"/></launch>'
+    )
+    first = start("launch", "p", "main.launch", "--headless", ROS_PACKAGE_PATH=str(package.parent))
+    until("the first launch", lambda: "hello 1000" in first.output())
+
+    second = trundle("launch", "p", "main.launch", "s:=0", "--headless", ROS_PACKAGE_PATH=str(package.parent))
+
+    assert second.returncode == 0
+    assert first.interrupt() == 130
+    assert "shutdown request" not in first.output()
+
+
 def test_a_table_lists_processes_and_stand_ins(launch: Launch, package: Path) -> None:
     (package / "main.launch").write_text(
         '<launch><node pkg="p" type="talk" name="a" args="0"/><node pkg="p" type="gone" name="b"/>'

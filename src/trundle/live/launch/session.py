@@ -13,6 +13,7 @@ from trundle.base.http.page_address import PageAddress
 from trundle.base.supervisor import Event, ProcessTree, StopTimeouts
 from trundle.gazebo.nodes import WORLDS, Executable, NodeHost, Simulator, find_node
 from trundle.robots.launch import LaunchNode, LaunchPlan
+from trundle.robots.names import anonymous_name
 from trundle.ros import DISTROS, Node, Recorder, RecorderOptions, StepRecorder, follow_time
 from trundle.spatial import NS_PER_S
 
@@ -92,8 +93,10 @@ class LaunchSession:
             )
         )
         show.note(graph.summary)
+        # Launches that join a master are many: of one name, each would shut down the one before, and stop its clock.
+        caller = "/roslaunch" if graph.core is not None else f"/{anonymous_name('roslaunch')}"
         launcher = self._launcher = Node(
-            "/roslaunch", loop=graph.loop, master_uri=graph.master_uri, host=graph.host, rosout=False
+            caller, loop=graph.loop, master_uri=graph.master_uri, host=graph.host, rosout=False
         )
         logs = log_folder(loaded.env, str(graph.loop.run(launcher.params.get("/run_id", ""))))
         self._log = LaunchLog(logs)
