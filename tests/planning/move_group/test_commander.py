@@ -27,10 +27,10 @@ scene = moveit_commander.PlanningSceneInterface()
 """
 
 
-def _run(graph: Any, folder: Path, text: str) -> str:
+def _run(graph: Any, folder: Path, text: str, *, begin: str = _BEGIN) -> str:
     """Run a program on the graph; return what it printed itself."""
     program = folder / "program.py"
-    program.write_text(_BEGIN + text)
+    program.write_text(begin + text)
     environment = {**os.environ, "ROS_MASTER_URI": graph.uri, "PYTHONPATH": str(_SITE), "ROS_HOME": str(folder)}
     done = subprocess.run(
         [sys.executable, str(program)], env=environment, capture_output=True, text=True, check=False, timeout=120
@@ -86,6 +86,32 @@ print("all is well")
     )
 
     assert printed.endswith("all is well\n")
+
+
+def test_a_program_names_itself_after_its_objects(graph: Any, tmp_path: Path) -> None:
+    """MoveIt's C++ is a node beside rospy's, so programs ask for the scene before they call rospy.init_node."""
+    start_arm(graph, kind="last point")
+
+    printed = _run(
+        graph,
+        tmp_path,
+        """
+import sys
+sys.argv += ["__name:=late", "high:=low"]
+import rosnode, rospy, moveit_commander
+scene = moveit_commander.PlanningSceneInterface()
+robot = moveit_commander.RobotCommander()
+assert rospy.get_name().startswith("/move_group_commander_wrappers_"), rospy.get_name()
+rospy.init_node("program")
+assert rospy.get_name() == "/late" and rospy.resolve_name("~a") == "/late/a" and rospy.resolve_name("high") == "/low"
+assert len([name for name in rosnode.get_node_names() if name == "/late" or "wrappers" in name]) == 2
+assert scene.get_known_object_names() == [] and robot.arm.get_current_joint_values()
+print("both are there")
+""",
+        begin="",
+    )
+
+    assert printed == "both are there\n"
 
 
 def test_objects_are_added_found_attached_and_removed(graph: Any, tmp_path: Path) -> None:

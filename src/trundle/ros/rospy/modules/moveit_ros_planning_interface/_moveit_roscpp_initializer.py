@@ -25,5 +25,5 @@ def ensure_node() -> None:
     """Make the program a node, unless it is one already."""
     with _lock:
         if not rospy.core.is_initialized():
-            rospy.init_node(_name, argv=_arguments, anonymous=True, disable_signals=True)
+            rospy.client.init_library_node(_name, _arguments)
             atexit.register(rospy.signal_shutdown, "atexit")

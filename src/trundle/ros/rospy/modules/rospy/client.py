@@ -154,6 +154,21 @@ def init_node(
     core.logdebug("init_node, name[%s], pid[%s]", full_name, os.getpid())
 
 
+def init_library_node(name: str, argv: Sequence[str] | None = None) -> None:
+    """Start a node for a library, as MoveIt's C++ is one beside rospy's; the program's own `init_node` starts another.
+
+    Args:
+        name: base name, to which process ID and time are appended.
+        argv: command line with remappings; sys.argv by default.
+    """
+    global _init_node_args
+    arguments = sys.argv if argv is None else argv
+    unnamed = [argument for argument in arguments if not argument.startswith("__name:=")]
+    init_node(name, argv=unnamed, anonymous=True, disable_signals=True)
+    names.reload_mappings(sys.argv)
+    _init_node_args = None
+
+
 def _start(name: str, argv: Sequence[str], ports: tuple[int, int]) -> None:
     """Start the node, and set its private parameters."""
     subscription.open_statistics = _open_statistics

@@ -101,14 +101,17 @@ _workers = _Workers()
 def start(name: str, master_uri: str, ports: tuple[int, int]) -> Node:
     """Create the node, and all endpoints that wait for it; returns once it is registered.
 
+    A library's node that was there before goes on with its endpoints; new ones are of the new node.
+
     Args:
         name: global name.
         master_uri: URI of the master.
         ports: ports of the slave API and of TCPROS; 0: any.
     """
     global loop, node
-    loop = GraphLoop(messages=cast("Messages", ByteMessages()))
-    loop.start()
+    if loop is None:
+        loop = GraphLoop(messages=cast("Messages", ByteMessages()))
+        loop.start()
     clock = WallClock()
     with _lock:
         started = Node(

@@ -59,6 +59,7 @@ def _message(text: str, record: logging.LogRecord) -> Any:
 def load_rosout_handlers(level: int | None) -> None:
     """Publish the records of the logger `rosout`, from a level on."""
     logger = logging.getLogger("rosout")
-    logger.addHandler(RosOutHandler())
+    if not any(isinstance(handler, RosOutHandler) for handler in logger.handlers):
+        logger.addHandler(RosOutHandler())
     if level is not None:
         logger.setLevel(_TO_PYTHON[level])
