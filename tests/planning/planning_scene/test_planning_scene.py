@@ -1,11 +1,13 @@
 """A planning scene says what touches what, as MoveIt's."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from tests.planning.arms import changed_arm
 from tests.planning.scenes import ready, scene_with, seven_axis, thing
 
-from trundle.base.diagnostics import UsageError
+from trundle.base.diagnostics import Diagnostics, UsageError
 from trundle.planning.planning_scene import (
     OCTOMAP,
     AllowedCollisionMatrix,
@@ -15,6 +17,7 @@ from trundle.planning.planning_scene import (
     PlanningScene,
     Voxels,
 )
+from trundle.planning.robot_model import robot_model
 from trundle.robots.meshes import Mesh
 from trundle.robots.model import Box, Cone, Cylinder, Plane, Sphere
 from trundle.spatial import Pose
@@ -214,6 +217,25 @@ def _tray() -> Mesh:
     return Mesh(vertices.astype(np.float32), faces.astype(np.int32))
 
 
+def _bowl_obj() -> str:
+    """Return a bowl of ten sides around z, from 0 to 0.3 m, without one of its triangles."""
+    angles = np.linspace(0.05, np.pi / 2, 4)
+    wall = [(r * np.sin(a), 0.3 - r * np.cos(a)) for r, turns in ((0.3, angles), (0.24, angles[::-1])) for a in turns]
+    count, sides = len(wall), 10
+    lines = [
+        f"v {r * np.cos(turn)} {r * np.sin(turn)} {z}"
+        for turn in np.linspace(0.0, 2.0 * np.pi, sides, endpoint=False)
+        for r, z in wall
+    ]
+    for i in range(sides):
+        here, beyond = i * count, (i + 1) % sides * count
+        for k in range(count):
+            after = (k + 1) % count
+            a, b, c, d = (1 + number for number in (here + k, beyond + k, beyond + after, here + after))
+            lines += [f"f {a} {b} {c}", f"f {a} {c} {d}"]
+    return "\n".join(lines[:-1])
+
+
 @pytest.mark.parametrize("mesh", [_channel(), _tray()], ids=["three walls", "open surface"])
 def test_a_mesh_that_is_not_convex_is_open_where_it_is(mesh: Mesh) -> None:
     scene = scene_with()
@@ -230,6 +252,22 @@ def test_a_mesh_that_is_not_convex_is_open_where_it_is(mesh: Mesh) -> None:
     assert scene.is_free()  # the ball is in the hollow
     scene.move("mesh", Pose((x, y, z + 0.2 if len(mesh.faces) == 4 else z + 0.3)))
     assert {(contact.body_1, contact.body_2) for contact in scene.check()} == {("ball", "mesh")}
+
+
+def test_a_link_whose_pieces_would_fill_it_is_its_triangles(tmp_path: Path) -> None:
+    """Pieces of a bowl with a missing triangle, as of a scanned or badly exported mesh, lie centimetres above it."""
+    mesh = tmp_path / "bowl.obj"
+    mesh.write_text(_bowl_obj())
+    urdf = f"""<robot name="bowl"><link name="base"/><joint name="lift" type="prismatic">
+      <parent link="base"/><child link="bowl"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/>
+    </joint><link name="bowl"><collision><geometry><mesh filename="{mesh}"/></geometry></collision></link></robot>"""
+    model = robot_model(urdf, "<robot name='bowl'/>", {}, Diagnostics())
+    scene = PlanningScene(model, packages=None)
+    scene.add(thing("ball", Sphere(0.02), 0.02, 0.0, 0.09))
+
+    assert scene.is_free()  # a centimetre above the floor of the bowl, which is 6 cm thick
+    scene.positions = np.array([0.02])
+    assert not scene.is_free()
 
 
 def test_a_copy_is_independent() -> None:

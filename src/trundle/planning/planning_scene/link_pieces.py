@@ -8,7 +8,14 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.base.diagnostics import Diagnostics, TrundleError
-from trundle.planning._planning import CollisionShape, box_shape, cylinder_shape, hull_shape, sphere_shape
+from trundle.planning._planning import (
+    CollisionShape,
+    box_shape,
+    cylinder_shape,
+    hull_shape,
+    sphere_shape,
+    surface_shape,
+)
 from trundle.robots.meshes import Mesh, load_mesh
 from trundle.robots.packages import Packages
 from trundle.robots.robot import RobotBox, RobotCylinder, RobotLink, RobotMesh, RobotShape, RobotSphere
@@ -18,13 +25,15 @@ from .pieces import Pieces, pose_row
 
 
 class LinkShape(Struct, frozen=True, eq=False):
-    """<collision> of a link: a primitive, or the convex pieces of its mesh."""
+    """<collision> of a link: a primitive, or the convex pieces or the triangles of its mesh."""
 
     geometry: RobotBox | RobotCylinder | RobotSphere | RobotMesh
     pose: tuple[float, ...]
     """x y z [m], qx qy qz qw in the link's frame."""
     corners: tuple[NDArray[np.float64], ...] = ()
     """(N, 3) corners of each piece of a mesh [m]."""
+    surface: tuple[NDArray[np.float64], NDArray[np.int32]] | None = None
+    """(N, 3) vertices [m] and (M, 3) faces of a mesh that is checked by its triangles."""
     middle: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """Mean of a mesh's vertices, about which it is scaled [m]."""
 
@@ -39,6 +48,9 @@ class LinkShape(Struct, frozen=True, eq=False):
                 return [sphere_shape(scale * radius)]
             case RobotMesh():
                 middle = np.array(self.middle)
+                if self.surface is not None:
+                    vertices, faces = self.surface
+                    return [surface_shape(middle + scale * (vertices - middle), faces)]
                 return [hull_shape(middle + scale * (corners - middle)) for corners in self.corners]
 
 
@@ -69,8 +81,8 @@ class LinkGeometry:
 def link_geometry(links: tuple[RobotLink, ...], packages: Packages | None, report: Diagnostics) -> LinkGeometry:
     """Read the collision shapes of links.
 
-    A mesh that is not convex is cut into convex pieces, as the simulation does; a mesh that cannot be read is reported
-    and left out, as MoveIt does.
+    A mesh that is not convex is cut into convex pieces, as the simulation does; one whose pieces fill what is open is
+    its triangles. A mesh that cannot be read is reported and left out, as MoveIt does.
 
     Args:
         links: links of the URDF.
@@ -80,21 +92,28 @@ def link_geometry(links: tuple[RobotLink, ...], packages: Packages | None, repor
     shapes = [shape for link in links for shape in link.collisions if isinstance(shape.geometry, RobotMesh)]
     meshes = [(shape, mesh) for shape in shapes if (mesh := _read(shape, packages, report)) is not None]
     cut = moving_pieces((mesh.vertices.astype(np.float64), mesh.faces.astype(np.intp)) for _, mesh in meshes)
-    corners = {
-        id(shape): ([hull_corners(piece, MAX_CORNERS) for piece in pieces], mesh)
-        for (shape, mesh), pieces in zip(meshes, cut, strict=True)
-    }
+    pieces_of = {id(shape): (pieces, mesh) for (shape, mesh), pieces in zip(meshes, cut, strict=True)}
     made: dict[str, list[LinkShape]] = {}
     for link in links:
         for shape in link.collisions:
             row = pose_row(shape.link_from_shape)
             if not isinstance(shape.geometry, RobotMesh):
                 made.setdefault(link.name, []).append(LinkShape(shape.geometry, row))
-            elif id(shape) in corners:
-                pieces, mesh = corners[id(shape)]
-                x, y, z = mesh.vertices.astype(np.float64).mean(axis=0).tolist()
-                made.setdefault(link.name, []).append(LinkShape(shape.geometry, row, tuple(pieces), (x, y, z)))
+            elif id(shape) in pieces_of:
+                made.setdefault(link.name, []).append(_mesh_shape(shape.geometry, row, *pieces_of[id(shape)]))
     return LinkGeometry(made)
+
+
+def _mesh_shape(
+    geometry: RobotMesh, pose: tuple[float, ...], pieces: list[NDArray[np.float64]] | None, mesh: Mesh
+) -> LinkShape:
+    vertices = mesh.vertices.astype(np.float64)
+    x, y, z = vertices.mean(axis=0).tolist()
+    if pieces is None:
+        faces = np.ascontiguousarray(mesh.faces, dtype=np.int32)
+        return LinkShape(geometry, pose, surface=(vertices, faces), middle=(x, y, z))
+    corners = tuple(hull_corners(piece, MAX_CORNERS) for piece in pieces)
+    return LinkShape(geometry, pose, corners, middle=(x, y, z))
 
 
 def _read(shape: RobotShape, packages: Packages | None, report: Diagnostics) -> Mesh | None:

@@ -151,7 +151,9 @@ def _cached_mesh_shapes(key: _MeshKey, owner: str, moves: bool) -> tuple[Collisi
     parts = convex_parts(vertices, faces.astype(np.intp))
     if parts is not None:
         return tuple(hull_shape(hull_corners(corners, MAX_CORNERS)) for corners in parts)
-    if not moves or len(faces) <= _MAX_CARRIED:
+    pieces = None
+    if moves and len(faces) > _MAX_CARRIED:
+        (pieces,) = moving_pieces([(vertices, faces.astype(np.intp))])
+    if pieces is None:
         return (surface_shape(vertices, np.ascontiguousarray(faces, dtype=np.int32)),)
-    (pieces,) = moving_pieces([(vertices, faces.astype(np.intp))])
     return tuple(hull_shape(hull_corners(corners, MAX_CORNERS)) for corners in pieces)

@@ -13,6 +13,10 @@ _Points = NDArray[np.float64]
 _MANY = 20_000
 """Points beyond which only the highest along many directions are looked at."""
 _BLOCK = 50_000
+_FILLED = 0.02
+"""Distance of the pieces from the mesh up to which they stand for it [m]."""
+_FEW = 2000
+"""Maximum number of triangles that are checked one by one."""
 
 
 def convex_parts(vertices: _Points, faces: NDArray[np.intp]) -> list[_Points] | None:
@@ -26,8 +30,10 @@ def convex_parts(vertices: _Points, faces: NDArray[np.intp]) -> list[_Points] | 
     return None if split.concave else split.corners
 
 
-def moving_pieces(meshes: Iterable[tuple[_Points, NDArray[np.intp]]]) -> list[list[_Points]]:
+def moving_pieces(meshes: Iterable[tuple[_Points, NDArray[np.intp]]]) -> list[list[_Points] | None]:
     """Return convex pieces of meshes that move, in worker processes if that takes long; they are kept on disk.
+
+    None: the pieces would fill what is open, as those of some walls without a back; its triangles are few enough.
 
     Args:
         meshes: vertices (N, 3) [m] and faces (M, 3) of each.
@@ -35,7 +41,13 @@ def moving_pieces(meshes: Iterable[tuple[_Points, NDArray[np.intp]]]) -> list[li
     decomposition = WorldDecomposition()
     listed = list(meshes)
     decomposition.decompose_all((vertices, faces, False) for vertices, faces in listed)
-    return [decomposition.pieces_of(vertices, faces, fixed=False).pieces.corners for vertices, faces in listed]
+    made = [decomposition.pieces_of(vertices, faces, fixed=False).pieces for vertices, faces in listed]
+    return [
+        None
+        if len(faces) <= _FEW and max((error.distance for error in pieces.errors), default=0.0) > _FILLED
+        else pieces.corners
+        for (_, faces), pieces in zip(listed, made, strict=True)
+    ]
 
 
 def hull_corners(points: _Points, max_count: int) -> _Points:
