@@ -99,6 +99,7 @@ def test_a_program_names_itself_after_its_objects(graph: Any, tmp_path: Path) ->
 import sys
 sys.argv += ["__name:=late", "high:=low"]
 import rosnode, rospy, moveit_commander
+from moveit_commander import CollisionObject, Grasp, PlaceLocation, RobotState, conversions
 scene = moveit_commander.PlanningSceneInterface()
 robot = moveit_commander.RobotCommander()
 assert rospy.get_name().startswith("/move_group_commander_wrappers_"), rospy.get_name()
