@@ -1,5 +1,7 @@
 #include "tf/tf.h"
 
+#include <algorithm>
+
 #include "tf/transform_broadcaster.h"
 #include "tf/transform_listener.h"
 
@@ -77,6 +79,41 @@ bool Transformer::canTransform(const std::string& target_frame, const ros::Time&
                                const std::string& source_frame, const ros::Time& source_time,
                                const std::string& fixed_frame, std::string* error_msg) const {
   return buffer_->canTransform(target_frame, target_time, source_frame, source_time, fixed_frame, error_msg);
+}
+
+void Transformer::lookupTwist(const std::string& tracking_frame, const std::string& observation_frame,
+                              const ros::Time& time, const ros::Duration& averaging_interval,
+                              geometry_msgs::Twist& twist) const {
+  lookupTwist(tracking_frame, observation_frame, observation_frame, Point(0, 0, 0), tracking_frame, time,
+              averaging_interval, twist);
+}
+
+void Transformer::lookupTwist(const std::string& tracking_frame, const std::string& observation_frame,
+                              const std::string& reference_frame, const Point& reference_point,
+                              const std::string& reference_point_frame, const ros::Time& time,
+                              const ros::Duration& averaging_interval, geometry_msgs::Twist& twist) const {
+  ros::Time latest;
+  getLatestCommonTime(observation_frame, tracking_frame, latest);
+  const ros::Time at = time.isZero() ? latest : time;
+  const ros::Time end = std::min(at + averaging_interval * 0.5, latest);
+  // Time 0 would be the latest transform.
+  const ros::Time start = std::max(end, ros::Time(0.00001) + averaging_interval) - averaging_interval;
+  const double period = (end - start).toSec();
+  StampedTransform before, after, tracking;
+  lookupTransform(observation_frame, tracking_frame, start, before);
+  lookupTransform(observation_frame, tracking_frame, end, after);
+  lookupTransform(reference_frame, tracking_frame, at, tracking);
+
+  Quaternion turn;
+  (before.getBasis().transpose() * after.getBasis()).getRotation(turn);
+  const Vector3 velocity = (after.getOrigin() - before.getOrigin()) / period;
+  const Vector3 angular = tracking.getBasis() * (before.getBasis() * turn.getAxis()) * (turn.getAngle() / period);
+  Stamped<Point> point(reference_point, at, reference_point_frame);
+  transformPoint(reference_frame, point, point);
+  const Vector3 linear =
+      tracking.getBasis() * velocity + tracking.getOrigin().cross(angular) + angular * (point - tracking.getOrigin());
+  vector3TFToMsg(linear, twist.linear);
+  vector3TFToMsg(angular, twist.angular);
 }
 
 int Transformer::getLatestCommonTime(const std::string& source_frame, const std::string& target_frame, ros::Time& time,

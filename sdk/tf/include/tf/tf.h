@@ -62,6 +62,18 @@ class Transformer {
                         const ros::Time& source_time, const std::string& fixed_frame, const ros::Duration& timeout,
                         const ros::Duration& polling_sleep_duration = ros::Duration(0.01),
                         std::string* error_msg = nullptr) const;
+  /** Mean twist of a frame, as seen from another, in an interval around a time; near the latest time, before it.
+
+  The values are tf's, whose formulas hold for `tracking_frame` not rotated in `observation_frame`: velocities are
+  rotated by the tracking frame's rotation in `reference_frame`, and the shift to another reference point multiplies
+  vectors by component. */
+  void lookupTwist(const std::string& tracking_frame, const std::string& observation_frame,
+                   const std::string& reference_frame, const Point& reference_point,
+                   const std::string& reference_point_frame, const ros::Time& time,
+                   const ros::Duration& averaging_interval, geometry_msgs::Twist& twist) const;
+  /** The same at the origin of the tracking frame, in the observation frame. */
+  void lookupTwist(const std::string& tracking_frame, const std::string& observation_frame, const ros::Time& time,
+                   const ros::Duration& averaging_interval, geometry_msgs::Twist& twist) const;
   /** Time of the latest transform between two frames; 0 if there is none. */
   int getLatestCommonTime(const std::string& source_frame, const std::string& target_frame, ros::Time& time,
                           std::string* error_string = nullptr) const;

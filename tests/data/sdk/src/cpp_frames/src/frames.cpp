@@ -87,6 +87,30 @@ void checkBuffer() {
   CHECK(!frames.setTransform(tf::StampedTransform(tf::Transform::getIdentity(), ros::Time(1), "a", "a")));
 }
 
+void checkTwist() {
+  // A frame drives along x at 2 m/s and turns at 0.5 rad/s, one metre above the frame that sees it.
+  tf::Transformer frames;
+  for (int i = 0; i <= 10; ++i)
+    frames.setTransform(
+        tf::StampedTransform(tf::Transform(tf::createQuaternionFromYaw(0.05 * i), tf::Vector3(0.2 * i, 0, 1)),
+                             ros::Time(100 + 0.1 * i), "odom", "base"));
+  geometry_msgs::Twist twist;
+  frames.lookupTwist("base", "odom", ros::Time(100.1), ros::Duration(0.2), twist);
+  CHECK(near(twist.angular.x, 0) && near(twist.angular.y, 0) && near(twist.angular.z, 0.5));
+  // The reference point is the observer's origin; tf rotates the velocity by the tracking frame's yaw, 0.05.
+  CHECK(near(twist.linear.x, 2 * cos(0.05)) && near(twist.linear.y, 2 * sin(0.05) - 0.2 * 0.5));
+  // Near the latest time the interval ends there; time 0 is that time.
+  frames.lookupTwist("base", "odom", ros::Time(0), ros::Duration(0.2), twist);
+  CHECK(near(twist.angular.z, 0.5) && near(twist.linear.x, 2 * cos(0.5)));
+  frames.lookupTwist("odom", "base", "odom", tf::Point(0, 0, 0), "odom", ros::Time(100.5), ros::Duration(0.2), twist);
+  CHECK(near(twist.angular.z, -0.5));
+  try {
+    frames.lookupTwist("base", "odom", ros::Time(101.5), ros::Duration(0.2), twist);
+    CHECK(false);
+  } catch (const tf::ExtrapolationException&) {
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -94,6 +118,7 @@ int main(int argc, char** argv) {
   ros::NodeHandle n;
   checkMath();
   checkBuffer();
+  checkTwist();
 
   tf::TransformListener listener;
   tf2_ros::Buffer buffer;
