@@ -34,11 +34,11 @@ class Matrix3x3 {
              1.0 - s * (x * x + y * y));
   }
   void getRotation(Quaternion& q) const {
-    // By the largest of the four components (Shepperd's method).
+    // By w where the trace is positive, else by the largest of x, y and z: so the sign is tf's.
     const tf2Scalar xx = rows_[0].x(), yy = rows_[1].y(), zz = rows_[2].z(), trace = xx + yy + zz;
     const tf2Scalar a = rows_[2].y() - rows_[1].z(), b = rows_[0].z() - rows_[2].x(), c = rows_[1].x() - rows_[0].y();
     const tf2Scalar d = rows_[0].y() + rows_[1].x(), e = rows_[0].z() + rows_[2].x(), f = rows_[1].z() + rows_[2].y();
-    if (trace >= xx && trace >= yy && trace >= zz) q = Quaternion(a, b, c, 1.0 + trace);
+    if (trace > 0) q = Quaternion(a, b, c, 1.0 + trace);
     else if (xx >= yy && xx >= zz) q = Quaternion(1.0 + xx - yy - zz, d, e, a);
     else if (yy >= zz) q = Quaternion(d, 1.0 + yy - xx - zz, f, b);
     else q = Quaternion(e, f, 1.0 + zz - xx - yy, c);

@@ -44,6 +44,12 @@ void checkMath() {
         CHECK(tf2::quatRotate(q, v).distance(t.getBasis() * v) < 1e-9);
         CHECK((tf2::Matrix3x3(q) * tf2::Matrix3x3(q).inverse() * v).distance(v) < 1e-9);
       }
+  // Of the two quaternions of a rotation, tf gives the one with w > 0 up to 120°, then that with the largest of x, y, z.
+  tf2::Quaternion sign;
+  tf2::Matrix3x3(tf2::Quaternion(tf2::Vector3(0, 0, 1), -100 * M_PI / 180)).getRotation(sign);
+  CHECK(near(sign.w(), cos(50 * M_PI / 180)) && sign.z() < 0);
+  tf2::Matrix3x3(tf2::Quaternion(tf2::Vector3(0, 0, 1), -150 * M_PI / 180)).getRotation(sign);
+  CHECK(near(sign.z(), sin(75 * M_PI / 180)) && sign.w() < 0);
   const tf2::Quaternion none, half(tf2::Vector3(0, 0, 1), 1.0);
   CHECK(near(tf2::getYaw(none.slerp(half, 0.25)), 0.25) && near(half.getAngle(), 1.0) && near(half.getAxis().z(), 1.0));
   CHECK(near(tf::getYaw(tf::createQuaternionMsgFromYaw(-2.0)), -2.0));
