@@ -10,7 +10,8 @@ namespace filter_failure_reasons = tf2_ros::filter_failure_reasons;
 typedef tf2_ros::FilterFailureReason FilterFailureReason;
 typedef tf2_ros::MessageFilterBase MessageFilterBase;
 
-/** Filter that passes messages on once their frame can be transformed to all target frames at their stamp. */
+/** Filter that passes messages on once their frame can be transformed to all target frames at their stamp: those that
+are ready when they come in that thread, which tf2's never does if it has a queue. */
 template <class M>
 class MessageFilter : public tf2_ros::MessageFilter<M> {
  public:
@@ -18,11 +19,15 @@ class MessageFilter : public tf2_ros::MessageFilter<M> {
    */
   MessageFilter(Transformer& tf, const std::string& target_frame, uint32_t queue_size,
                 ros::NodeHandle nh = ros::NodeHandle(), ros::Duration = ros::Duration(0.01))
-      : tf2_ros::MessageFilter<M>(*tf.getTF2BufferPtr(), target_frame, queue_size, nh) {}
+      : tf2_ros::MessageFilter<M>(*tf.getTF2BufferPtr(), target_frame, queue_size, nh) {
+    this->runAtAdd();
+  }
   template <class F>
   MessageFilter(F& f, Transformer& tf, const std::string& target_frame, uint32_t queue_size,
                 ros::NodeHandle nh = ros::NodeHandle(), ros::Duration = ros::Duration(0.01))
-      : tf2_ros::MessageFilter<M>(f, *tf.getTF2BufferPtr(), target_frame, queue_size, nh) {}
+      : MessageFilter(tf, target_frame, queue_size, nh) {
+    this->connectInput(f);
+  }
 };
 
 }  // namespace tf

@@ -55,7 +55,7 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
                 ros::CallbackQueueInterface* callback_queue)
       : buffer_(buffer), queue_size_(queue_size), callback_queue_(callback_queue) {
     setTargetFrame(target_frame);
-    listener_ = buffer_.addTransformsListener([this] { passOn(); });
+    listener_ = buffer_.addTransformsListener([this] { passOn(callback_queue_); });
   }
   template <class F>
   MessageFilter(F& f, tf2::BufferCore& buffer, const std::string& target_frame, uint32_t queue_size,
@@ -104,7 +104,11 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
     waiting_.clear();
   }
 
-  void add(const MConstPtr& message) { add(MEvent(message)); }
+  /** Add a message that no subscriber received; its receipt has wall time, which programs without a node have too. */
+  void add(const MConstPtr& message) {
+    const ros::WallTime now = ros::WallTime::now();
+    add(MEvent(message, ros::Time(now.sec, now.nsec)));
+  }
   void add(const MEvent& event) {
     std::list<Outcome> outcomes;
     {
@@ -119,8 +123,9 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
         waiting_.push_back(event);
       }
     }
-    for (const Outcome& outcome : outcomes) finish(outcome);
-    passOn();
+    ros::CallbackQueueInterface* const queue = runs_at_add_ ? nullptr : callback_queue_;
+    for (const Outcome& outcome : outcomes) finish(outcome, queue);
+    passOn(queue);
   }
 
   /** Connect a callback for messages that are dropped. */
@@ -133,6 +138,10 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
       failure_callbacks_.erase(place);
     });
   }
+
+ protected:
+  /** Let `add` itself call what is ready then, in its thread, whatever the queue. */
+  void runAtAdd() { runs_at_add_ = true; }
 
  private:
   struct Outcome {
@@ -184,7 +193,7 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
     return false;
   }
 
-  void passOn() {
+  void passOn(ros::CallbackQueueInterface* queue) {
     std::list<Outcome> outcomes;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -198,12 +207,11 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
         event = waiting_.erase(event);
       }
     }
-    for (const Outcome& outcome : outcomes) finish(outcome);
+    for (const Outcome& outcome : outcomes) finish(outcome, queue);
   }
 
-  void finish(const Outcome& outcome) {
-    if (callback_queue_)
-      callback_queue_->addCallback(boost::make_shared<Call>(*this, outcome), reinterpret_cast<uint64_t>(this));
+  void finish(const Outcome& outcome, ros::CallbackQueueInterface* queue) {
+    if (queue) queue->addCallback(boost::make_shared<Call>(*this, outcome), reinterpret_cast<uint64_t>(this));
     else report(outcome);
   }
   void report(const Outcome& outcome) {
@@ -225,6 +233,7 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
   uint32_t queue_size_;
   ros::Duration tolerance_;
   ros::CallbackQueueInterface* callback_queue_;
+  bool runs_at_add_ = false;
   std::list<MEvent> waiting_;
   std::list<FailureCallback> failure_callbacks_;
   size_t listener_ = 0;

@@ -1,5 +1,6 @@
 // Broadcasts frames, looks them up by tf and tf2, and prints a line for each check that fails.
 #include <ros/ros.h>
+#include <tf/message_filter.h>
 #include <tf/transform_broadcaster.h>
 #include <tf/transform_listener.h>
 #include <tf2/LinearMath/Quaternion.h>
@@ -163,6 +164,15 @@ int main(int argc, char** argv) {
   const geometry_msgs::PoseStamped before =
       buffer.transform(ahead, "camera", ros::Time(0), "map", ros::Duration(1.0));
   CHECK(near(before.pose.position.x, 1.0) && before.header.frame_id == "camera");
+  // A filter of tf passes on at once what is ready when it comes.
+  tf::MessageFilter<geometry_msgs::PoseStamped> filter(listener, "map", 5);
+  int passed = 0;
+  filter.registerCallback(
+      boost::function<void(const geometry_msgs::PoseStampedConstPtr&)>([&](const geometry_msgs::PoseStampedConstPtr&) {
+        ++passed;
+      }));
+  filter.add(boost::make_shared<geometry_msgs::PoseStamped>(ahead));
+  CHECK(passed == 1);
   // Another node asks for transforms by an action; what is wrong comes back as the exception.
   tf2_ros::BufferServer server(buffer, "lookups");
   tf2_ros::BufferClient client("lookups");
