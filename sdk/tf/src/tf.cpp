@@ -66,13 +66,7 @@ bool Transformer::waitForTransform(const std::string& target_frame, const ros::T
                                    const std::string& source_frame, const ros::Time& source_time,
                                    const std::string& fixed_frame, const ros::Duration& timeout, const ros::Duration&,
                                    std::string* error_msg) const {
-  try {
-    buffer_->lookupTransform(target_frame, target_time, source_frame, source_time, fixed_frame, timeout);
-    return true;
-  } catch (const tf2::TransformException& error) {
-    if (error_msg) *error_msg = error.what();
-    return false;
-  }
+  return buffer_->canTransform(target_frame, target_time, source_frame, source_time, fixed_frame, timeout, error_msg);
 }
 
 bool Transformer::canTransform(const std::string& target_frame, const ros::Time& target_time,

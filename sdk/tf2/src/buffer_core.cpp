@@ -79,7 +79,7 @@ bool BufferCore::setTransform(const geometry_msgs::TransformStamped& transform, 
 
 bool BufferCore::store(const std::string& child, const Sample& sample, const std::string& authority, bool is_static) {
   const std::lock_guard<std::recursive_mutex> lock(mutex_);
-  names_[child] = names_[sample.parent] = true;
+  for (const std::string& name : {child, sample.parent}) names_.emplace(name, names_.size());
   Frame& frame = frames_[child];
   if (is_static || frame.is_static) frame.samples.clear();
   frame.is_static = is_static;
@@ -92,11 +92,10 @@ bool BufferCore::store(const std::string& child, const Sample& sample, const std
                         child.c_str(), text(stamp).c_str(), authority.c_str());
       return false;
     }
-    while (!frame.samples.empty() && frame.samples.rbegin()->first > frame.samples.begin()->first &&
-           std::max(latest, stamp) - frame.samples.begin()->first > cache_time_)
-      frame.samples.erase(frame.samples.begin());
   }
   frame.samples[stamp] = sample;
+  const ros::Time latest = frame.samples.rbegin()->first;
+  while (latest - frame.samples.begin()->first > cache_time_) frame.samples.erase(frame.samples.begin());
   return true;
 }
 
@@ -262,8 +261,8 @@ bool BufferCore::canTransform(const std::string& target_frame, const ros::Time& 
 
 void BufferCore::getFrameStrings(std::vector<std::string>& frames) const {
   const std::lock_guard<std::recursive_mutex> lock(mutex_);
-  frames.clear();
-  for (const auto& entry : names_) frames.push_back(entry.first);
+  frames.resize(names_.size());
+  for (const auto& entry : names_) frames[entry.second] = entry.first;
 }
 
 bool BufferCore::frameExists(const std::string& frame) const {

@@ -8,9 +8,16 @@
 namespace tf2_ros {
 namespace {
 
-/** Poll a condition until it is true; false after a timeout of ROS time, or if the node shuts down. */
+/** Poll a condition until it is true; false after a timeout of ROS time, if the node shuts down, or without a thread
+that could make it true. */
 template <class Condition>
-bool waitFor(const ros::Duration& timeout, const Condition& condition) {
+bool waitFor(const tf2::BufferCore& buffer, const ros::Duration& timeout, std::string* error,
+             const Condition& condition) {
+  if (!buffer.isUsingDedicatedThread()) {
+    ROS_ERROR("%s", threading_error.c_str());
+    if (error) *error = threading_error;
+    return false;
+  }
   const ros::Time end = ros::Time::now() + timeout;
   while (!condition()) {
     if (!ros::ok() || ros::Time::now() >= end) return false;
@@ -65,13 +72,14 @@ geometry_msgs::TransformStamped Buffer::lookupTransform(const std::string& targe
 
 bool Buffer::canTransform(const std::string& target_frame, const std::string& source_frame, const ros::Time& time,
                           const ros::Duration timeout, std::string* errstr) const {
-  return waitFor(timeout, [&] { return BufferCore::canTransform(target_frame, source_frame, time, errstr); });
+  return waitFor(*this, timeout, errstr,
+                 [&] { return BufferCore::canTransform(target_frame, source_frame, time, errstr); });
 }
 
 bool Buffer::canTransform(const std::string& target_frame, const ros::Time& target_time,
                           const std::string& source_frame, const ros::Time& source_time, const std::string& fixed_frame,
                           const ros::Duration timeout, std::string* errstr) const {
-  return waitFor(timeout, [&] {
+  return waitFor(*this, timeout, errstr, [&] {
     return BufferCore::canTransform(target_frame, target_time, source_frame, source_time, fixed_frame, errstr);
   });
 }
@@ -103,6 +111,7 @@ void TransformListener::subscribe(bool spin_thread, const ros::TransportHints& h
   if (!spin_thread) return;
   spinner_.reset(new ros::AsyncSpinner(1, &queue_));
   spinner_->start();
+  buffer_.setUsingDedicatedThread(true);
 }
 
 void TransformListener::receive(const ros::MessageEvent<tf2_msgs::TFMessage const>& event, bool is_static) {

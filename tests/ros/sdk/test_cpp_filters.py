@@ -49,7 +49,7 @@ def test_scans_wait_for_odometry_and_for_frames(running: Running, graph: Graph, 
     until(lambda: len(said) >= 6)
     assert sorted(said[2:]) == ["tf 100", "tf 101", "tf2 100", "tf2 101"]
 
-    for stamp in (130.0, 131.0, 132.0):
+    for stamp in (102.5, 130.0, 131.0, 132.0):  # what is older than ten seconds is forgotten then
         send_frame(stamp)
     until(lambda: {"tf 102", "tf2 102"} <= set(said))
     scans.publish(messages.new("sensor_msgs/LaserScan", {"header": header(103.0, "laser")}))

@@ -40,8 +40,8 @@ class Transformer {
   virtual ~Transformer() {}
 
   void clear() { buffer_->clear(); }
-  // Waiting is not refused where no thread is announced.
-  void setUsingDedicatedThread(bool) {}
+  void setUsingDedicatedThread(bool is_used) { buffer_->setUsingDedicatedThread(is_used); }
+  bool isUsingDedicatedThread() const { return buffer_->isUsingDedicatedThread(); }
   // Nothing is extrapolated, with any limit, as in tf since it is built on tf2.
   void setExtrapolationLimit(const ros::Duration&) {}
   bool setTransform(const StampedTransform& transform, const std::string& authority = "default_authority");

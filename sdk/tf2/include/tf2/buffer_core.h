@@ -4,6 +4,7 @@
 #include <ros/duration.h>
 #include <ros/time.h>
 
+#include <atomic>
 #include <boost/function.hpp>
 #include <map>
 #include <mutex>
@@ -51,6 +52,9 @@ class BufferCore {
   /** Call a function after each transform that is set, in that thread, until the number that is returned is removed. */
   size_t addTransformsListener(const boost::function<void()>& listener);
   void removeTransformsListener(size_t number);
+  /** Announce that another thread sets transforms, so that this one may wait for them. */
+  void setUsingDedicatedThread(bool is_used) { has_thread_ = is_used; }
+  bool isUsingDedicatedThread() const { return has_thread_; }
 
  private:
   struct Sample {
@@ -81,10 +85,11 @@ class BufferCore {
   mutable std::recursive_mutex mutex_;
   ros::Duration cache_time_;
   std::map<std::string, Frame> frames_;
-  std::map<std::string, bool> names_;
+  std::map<std::string, size_t> names_;  // frame → its place in the order in which frames came
   std::recursive_mutex listeners_mutex_;
   std::map<size_t, boost::function<void()> > listeners_;
   size_t next_listener_ = 1;
+  std::atomic<bool> has_thread_{false};
 };
 
 }  // namespace tf2

@@ -8,7 +8,14 @@
 
 namespace tf2_ros {
 
-/** Frames of the graph, filled by a TransformListener. */
+/** What is said of a timeout in the thread that would have to set the transforms. */
+const std::string threading_error =
+    "a timeout needs another thread that sets transforms: a TransformListener with spin_thread = true, or one of "
+    "yours after setUsingDedicatedThread(true)";
+
+/** Frames of the graph, filled by a TransformListener.
+
+With a timeout, canTransform is false at once, and lookupTransform does not wait, if no other thread is announced. */
 class Buffer : public BufferInterface, public tf2::BufferCore {
  public:
   using tf2::BufferCore::canTransform;
@@ -29,7 +36,6 @@ class Buffer : public BufferInterface, public tf2::BufferCore {
   bool canTransform(const std::string& target_frame, const ros::Time& target_time, const std::string& source_frame,
                     const ros::Time& source_time, const std::string& fixed_frame, const ros::Duration timeout,
                     std::string* errstr = nullptr) const override;
-  void setUsingDedicatedThread(bool) {}
 };
 
 }  // namespace tf2_ros

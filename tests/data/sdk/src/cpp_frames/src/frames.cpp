@@ -70,7 +70,13 @@ void checkBuffer() {
   CHECK(t.stamp_ == ros::Time(103) && near(t.getOrigin().x(), 3.0) && near(t.getOrigin().z(), 2.0));
   frames.lookupTransform("base", ros::Time(104), "base", ros::Time(100), "odom", t);
   CHECK(t.getOrigin().distance(tf::Transform(tf::createQuaternionFromYaw(-0.4)) * tf::Vector3(-4, 0, 0)) < 1e-9);
+  std::vector<std::string> names;
+  frames.getFrameStrings(names);
+  CHECK((names == std::vector<std::string>{"base", "odom", "laser"}));
+  // In the thread that sets transforms, waiting for one would be in vain.
   std::string why;
+  CHECK(!frames.waitForTransform("odom", "base", ros::Time(200), ros::Duration(60), ros::Duration(0.01), &why));
+  CHECK(why == tf2_ros::threading_error);
   CHECK(!frames.canTransform("odom", "base", ros::Time(200), &why) && why.find("into the future") != std::string::npos);
   CHECK(!frames.canTransform("odom", "nowhere", ros::Time(0)));
   frames.setTransform(tf::StampedTransform(tf::Transform::getIdentity(), ros::Time(100), "moon", "crater"));
@@ -90,6 +96,9 @@ void checkBuffer() {
   } catch (tf::TransformException& error) {
     ++thrown;
   }
+  // What is older than ten seconds is forgotten, though nothing came in between.
+  frames.setTransform(tf::StampedTransform(tf::Transform::getIdentity(), ros::Time(200), "odom", "base"));
+  CHECK(!frames.canTransform("odom", "base", ros::Time(150)) && frames.canTransform("odom", "base", ros::Time(200)));
   CHECK(thrown == 3);
   CHECK(!frames.setTransform(tf::StampedTransform(tf::Transform::getIdentity(), ros::Time(1), "a", "a")));
 }
