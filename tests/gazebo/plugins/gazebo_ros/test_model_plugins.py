@@ -176,11 +176,17 @@ def test_joints_take_the_positions_of_a_trajectory_and_are_published(gazebo: Gaz
     gazebo.spawn(_ARM.format(plugin=plugins + _plugin("joint_pose_trajectory")), "arm")
     gazebo.call("unpause_physics")
     states = gazebo.subscribe("/joint_states", "sensor_msgs/JointState")
-    points = [{"positions": [1.0]}, {"positions": [0.5], "time_from_start": {"nanosec": 200_000_000}}]
+    points = [{"positions": [x], "time_from_start": {"nanosec": 200_000_000}} for x in (1.0, 0.5, 0.25)]
     publish = gazebo.advertise("/set_joint_trajectory", "trajectory_msgs/JointTrajectory")
     publish({"joint_names": ["turn"], "points": points})
-    until(lambda: any(m.position[0] == pytest.approx(1.0, abs=1e-6) for m in states))
-    until(lambda: states[-1].position[0] == pytest.approx(0.5, abs=1e-6))
+    until(lambda: states and states[-1].position[0] == pytest.approx(0.25, abs=1e-6))
+
+    def stamp_of(position: float) -> float:
+        stamp = next(m.header.stamp for m in states if m.position[0] == pytest.approx(position, abs=1e-6))
+        return float(stamp.sec) + stamp.nanosec * 1e-9
+
+    assert stamp_of(0.5) - stamp_of(1.0) == pytest.approx(0.2, abs=0.02), "a point follows the time of the one before"
+    assert stamp_of(0.25) - stamp_of(0.5) == pytest.approx(0.2, abs=0.02)
 
     kind = "gazebo_msgs/SetJointTrajectory"
     invalid = {"joint_names": ["turn"], "points": [{"positions": []}]}

@@ -1,4 +1,4 @@
-"""libgazebo_ros_joint_pose_trajectory.so: joint positions set at given times, without dynamics."""
+"""libgazebo_ros_joint_pose_trajectory.so: joint positions set one after the other, without dynamics."""
 
 from collections import deque
 from typing import TYPE_CHECKING, Any
@@ -18,7 +18,7 @@ _MAX_POINTS = 100_000
 
 
 class JointPoseTrajectory(RosPlugin):
-    """Sets the positions of trajectory points at their times, without interpolation.
+    """Sets the positions of trajectory points, each at the end of the time_from_start of the one before.
 
     Parameters, with gazebo_ros' defaults: <topicName> set_joint_trajectory, <serviceName> set_joint_trajectory,
     <updateRate> 0 (every step).
@@ -35,8 +35,8 @@ class JointPoseTrajectory(RosPlugin):
         node.advertise_service(service, "gazebo_msgs/SetJointTrajectory", self._set_trajectory)
 
     def before_step(self, sim: Simulation) -> None:
-        """Set the positions that are due."""
-        while self._due and self._due[0][0] <= sim.time_ns:
+        """Set the positions that are due; in one update those of one point, as in gazebo_plugins."""
+        if self._due and self._due[0][0] <= sim.time_ns:
             for name, position in self._due.popleft()[1].items():
                 joint = self._model.joint(name)
                 joint.set_position(position)
@@ -68,11 +68,8 @@ class JointPoseTrajectory(RosPlugin):
             raise UsageError(f"{len(trajectory.points)} points are more than {_MAX_POINTS}")
         if any(len(point.positions) != len(names) for point in trajectory.points):
             raise UsageError(f"each point needs {len(names)} positions")
-        start_ns = max(to_nsec(trajectory.header.stamp), self._sim.time_ns)
-        self._due = deque(
-            (
-                start_ns + to_nsec(point.time_from_start),
-                {name: float(p) for name, p in zip(names, point.positions, strict=True)},
-            )
-            for point in trajectory.points
-        )
+        due_ns = max(to_nsec(trajectory.header.stamp), self._sim.time_ns)
+        self._due.clear()
+        for point in trajectory.points:
+            self._due.append((due_ns, {name: float(p) for name, p in zip(names, point.positions, strict=True)}))
+            due_ns += to_nsec(point.time_from_start)
