@@ -100,8 +100,9 @@ def test_without_a_compiler_zigs_is_taken(tmp_path: Path, monkeypatch: pytest.Mo
 
     assert tools is not None
     environment = {**os.environ, "PYTHONPATH": str(package.parent)}
-    done = subprocess.run([tools / "c++", "--version"], env=environment, capture_output=True, text=True, check=True)
-    assert done.stdout == "zig c++ -D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION --version\n"
+    command = [tools / "c++", "-isystem", "/boost 1.90", "-O2"]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    assert done.stdout == "zig c++ -D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION -I /boost 1.90 -O2\n"
     assert zig_definitions(str(tools / "c++")) == [
         f"-DCMAKE_C_COMPILER={tools}/cc",
         f"-DCMAKE_AR={tools}/ar",

@@ -12,6 +12,8 @@ from trundle.base.ownership import home_folder
 
 _FOR_BOOST = "-D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION"
 """What Boost before 1.81 uses of a standard library that no longer has it."""
+_FIRST = 'for word do shift; [ "$word" != -isystem ] || word=-I; set -- "$@" "$word"; done'
+"""Zig searches folders of -isystem after /usr/include, whose Boost may be too old for it."""
 _TOOLS = {"c++": f"c++ {_FOR_BOOST}", "cc": "cc", "ar": "ar", "ranlib": "ranlib"}
 """Name of a program → Zig's subcommand."""
 
@@ -32,7 +34,7 @@ def zig_tools(environment: Mapping[str, str]) -> Path | None:
     folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     for name, command in _TOOLS.items():
         program = folder / name
-        text = f'#!/bin/sh\nexec {shlex.quote(sys.executable)} -m ziglang {command} "$@"\n'
+        text = f'#!/bin/sh\n{_FIRST}\nexec {shlex.quote(sys.executable)} -m ziglang {command} "$@"\n'
         if not program.is_file() or program.read_text(encoding="utf-8") != text:
             write_atomically(program, text)
             program.chmod(0o700)
