@@ -21,6 +21,7 @@
 #include "contact_offset.h"
 #include "friction_pyramid.h"
 #include "friction_slip.h"
+#include "grazing.h"
 #include "joint_stop.h"
 #include "law_tables.h"
 #include "midpoint.h"
@@ -47,11 +48,12 @@ namespace {
 std::atomic<mjfGeneric> previous = nullptr;
 std::atomic<mjfSensor> previous_sensor = nullptr;
 
-// Friction directions, surface motion and slip; return whether the constraints must be rebuilt.
+// Grazing contacts, friction directions, surface motion and slip; return whether the constraints must be rebuilt.
 bool turn_friction(const LawTables& laws, const mjModel* m, mjData* d) {
+  const bool grazes = release_grazing(m, d);
   align_friction(laws, m, d);
   move_surfaces(laws, m, d);
-  return release_slipping(laws, m, d);
+  return release_slipping(laws, m, d) || grazes;
 }
 
 void rebuild_constraints(const mjModel* m, mjData* d) {

@@ -118,3 +118,24 @@ def test_soft_contacts_are_parallel_springs_and_dampers(
         return
     sim.run(6.0)
     assert sim["b"].pose.position[2] - 0.1 == pytest.approx(-mass * GRAVITY / (points * kp), rel=0.02, abs=1e-4)
+
+
+def test_a_link_that_only_turns_is_not_held_by_the_ground_it_grazes(load: Load) -> None:
+    """An arm's first link in the ground by a rounding error: it cannot give way, and its contact must not be hard."""
+    sim = load(
+        f"""<model name="arm"><pose>0 0 {0.1 - 1e-9} 0 0 0</pose>
+        <link name="base"><inertial><mass>1</mass></inertial></link>
+        <link name="turn"><inertial><mass>0.3</mass><inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia>
+        </inertial><collision name="c"><geometry>{BOX}</geometry></collision></link>
+        <joint name="fixed" type="fixed"><parent>world</parent><child>base</child></joint>
+        <joint name="z" type="revolute"><parent>base</parent><child>turn</child><axis><xyz>0 0 1</xyz></axis></joint>
+        </model>"""
+    )
+    joint = sim["arm"].joint("z")
+    for _ in range(500):
+        joint.command_effort(0.1)
+        sim.step()
+
+    assert sim.contacts()
+    assert loads(sim)["turn::c"] < 0.1
+    assert joint.position == pytest.approx(0.5 * 0.1 / 0.01 * 0.5**2, rel=0.02)
