@@ -53,9 +53,18 @@ def test_a_robot_that_rolls_out_of_the_tolerance_has_not_reached_the_goal() -> N
     assert not goal_stop.is_reached(Pose2D(1.12, 0.0, 0.0), GOAL, STANDING)
 
 
-def test_a_robot_drives_on_within_the_tolerance_while_it_comes_nearer() -> None:
-    """An axle behind the robot's origin moves it when it turns: it would leave a goal at whose edge it stops."""
-    goal_stop = stop()
+def _drifting_stop(**limits: float) -> GoalStop:
+    """Return a stop whose robot has left the goal's tolerance by a turn."""
+    goal_stop = stop(**limits)
+    assert goal_stop.has_arrived(Pose2D(1.0 - 0.09, 0.0, 2.0), GOAL, STANDING)
+    command(goal_stop, Pose2D(1.0 - 0.09, 0.0, 2.0), STANDING)
+    assert not goal_stop.has_arrived(Pose2D(1.0 - 0.16, 0.0, 1.0), GOAL, STANDING)
+    return goal_stop
+
+
+def test_a_robot_that_a_turn_moves_drives_on_while_it_comes_nearer() -> None:
+    """An axle behind the robot's origin moves it when it turns: it leaves a goal at whose edge it stops."""
+    goal_stop = _drifting_stop()
     arrived = [
         goal_stop.has_arrived(Pose2D(1.0 - beside, 0.0, 2.0), GOAL, (0.1, 0.0, 0.0))
         for beside in (0.11, 0.09, 0.06, 0.03, 0.03)
@@ -68,7 +77,7 @@ def test_a_robot_drives_on_within_the_tolerance_while_it_comes_nearer() -> None:
 
 
 def test_a_robot_brakes_in_time_for_its_goal() -> None:
-    goal_stop = stop(acc_lim_x=1.0)
+    goal_stop = _drifting_stop(acc_lim_x=1.0)
 
     assert not goal_stop.has_arrived(Pose2D(0.92, 0.0, 0.0), GOAL, (0.3, 0.0, 0.0))
     assert goal_stop.has_arrived(Pose2D(0.96, 0.0, 0.0), GOAL, (0.3, 0.0, 0.0))

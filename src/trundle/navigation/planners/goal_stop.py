@@ -27,10 +27,17 @@ _LEAVING = 1.5
 
 _NEARER_M = 1e-3
 """Distance by which a robot comes nearer to the goal with each command until it has arrived [m]."""
+_REST_S = 1.0
+"""Least time for what is left of a turn, once a turn has passed its end [s]; the original's of every turn."""
 
 
 class GoalStop:
-    """Stops within the tolerance of the goal, then turns on the spot."""
+    """Stops within the tolerance of the goal, then turns on the spot.
+
+    It learns two traits of a robot. A turn that takes it out of the tolerance is about a point beside its origin: from
+    then on it stops at the goal, not where the tolerance begins. A turn that passes its end is of a base that
+    accelerates slower than its limits say, or obeys late: from then on turns end slowly.
+    """
 
     def __init__(self, node: Node, limits: StopLimits, *, stopped_speed: float, stopped_turn: float) -> None:
         """Take the limits.
@@ -48,22 +55,25 @@ class GoalStop:
         self._is_latched = False
         self._is_turning = self._has_turned = False
         self._nearest_m = math.inf
+        self._drifts = self._swings = False
+        """Whether a turn took the robot away from the goal, and whether one passed its end."""
+        self._angle = 0.0
+        """What was left of the turn [rad]."""
 
     def reset(self, *, is_new_goal: bool) -> None:
         """Begin a plan."""
         self._is_turning = self._has_turned = False
-        self._nearest_m = math.inf
+        self._nearest_m, self._angle = math.inf, 0.0
         if is_new_goal or not self._limits.latch_xy_goal_tolerance:
             self._is_latched = False
 
     def has_arrived(self, pose: Pose2D, goal: Pose2D, velocity: Velocity) -> bool:
-        """True at the goal's position once the robot has to brake, or comes no nearer.
-
-        So it stops at the goal, not where the tolerance begins: it may turn there about a point beside its origin.
-        """
+        """True at the goal's position; of a robot that a turn moves, once it has to brake, or comes no nearer."""
         if not self.is_at_position(pose, goal):
             self._nearest_m = math.inf
             return False
+        if not self._drifts:
+            return True
         distance = math.hypot(goal.x - pose.x, goal.y - pose.y)
         speed = math.hypot(velocity[0], velocity[1])
         braking = speed**2 / (2.0 * max(self._limits.acc_lim_x, 1e-3))
@@ -77,6 +87,7 @@ class GoalStop:
         A robot that has begun to turn there is at the position until it has left it: its wheels hold it where it was.
         """
         distance, tolerance = math.hypot(goal.x - pose.x, goal.y - pose.y), self._limits.xy_goal_tolerance
+        self._drifts = self._drifts or (self._has_turned and distance > _LEAVING * tolerance)
         self._has_turned = self._has_turned and distance <= _LEAVING * tolerance
         is_near = distance <= tolerance or self._has_turned
         if is_near and self._limits.latch_xy_goal_tolerance:
@@ -119,8 +130,16 @@ class GoalStop:
             )
             return stop if is_free(stop) else None
         self._is_turning = self._has_turned = True
+        self._swings = self._swings or (angle * self._angle < 0.0 and abs(angle) < math.pi / 2.0)
+        self._angle = angle
         speed = turning_speed(
-            angle, turn, least=least_turn, most=most_turn, acceleration=limits.acc_lim_theta, period_s=period_s
+            angle,
+            turn,
+            least=least_turn,
+            most=most_turn,
+            acceleration=limits.acc_lim_theta,
+            period_s=period_s,
+            rest_s=_REST_S if self._swings else 0.0,
         )
         rotation = (0.0, 0.0, speed)
         return rotation if is_free(rotation) else None

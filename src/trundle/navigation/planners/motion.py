@@ -9,10 +9,6 @@ if TYPE_CHECKING:
     from trundle.ros.message_types import nav_msgs
 
 
-_TURN_S = 1.0
-"""Least time for what is left of a turn [s]."""
-
-
 class OdometryReader:
     """The latest velocity on an odometry topic."""
 
@@ -39,12 +35,9 @@ def approach(value: float, target: float, step: float) -> float:
 
 
 def turning_speed(
-    angle: float, now: float, *, least: float, most: float, acceleration: float, period_s: float
+    angle: float, now: float, *, least: float, most: float, acceleration: float, period_s: float, rest_s: float = 0.0
 ) -> float:
     """Return the speed [rad/s] for a turn on the spot: as fast as allowed, and able to stop at its end.
-
-    As in the original, a turn takes a second at least for what is left of it: many a base accelerates slower than its
-    limits say, or obeys a moment later, and would pass the end again and again.
 
     Args:
         angle: angle that is left [rad].
@@ -53,9 +46,10 @@ def turning_speed(
         most: greatest speed [rad/s].
         acceleration: limit [rad/s²].
         period_s: time until the next command [s].
+        rest_s: least time for what is left of the turn [s].
     """
     sign = math.copysign(1.0, angle)
     stopping = math.sqrt(2.0 * acceleration * abs(angle))
-    speed = min(most, stopping, abs(angle) / max(period_s, _TURN_S))
+    speed = min(most, stopping, abs(angle) / max(period_s, rest_s))
     reachable = max(sign * now + acceleration * period_s, least)
     return sign * max(min(speed, reachable), min(least, most))
