@@ -53,7 +53,7 @@ class GoalStop:
         self._stopped_speed = stopped_speed
         self._stopped_turn = stopped_turn
         self._is_latched = False
-        self._is_turning = self._has_turned = False
+        self._has_turned = False
         self._nearest_m = math.inf
         self._drifts = self._swings = False
         """Whether a turn took the robot away from the goal, and whether one passed its end."""
@@ -62,7 +62,7 @@ class GoalStop:
 
     def reset(self, *, is_new_goal: bool) -> None:
         """Begin a plan."""
-        self._is_turning = self._has_turned = False
+        self._has_turned = False
         self._nearest_m, self._angle = math.inf, 0.0
         if is_new_goal or not self._limits.latch_xy_goal_tolerance:
             self._is_latched = False
@@ -119,17 +119,9 @@ class GoalStop:
         limits = self._limits
         angle = angle_between(pose.yaw, goal.yaw)
         if abs(angle) <= limits.yaw_goal_tolerance:
-            self._is_turning = False
             return 0.0, 0.0, 0.0
         x, y, turn = velocity
-        if not self._is_turning and not self._stands(velocity):
-            stop = (
-                approach(x, 0.0, limits.acc_lim_x * period_s),
-                approach(y, 0.0, limits.acc_lim_y * period_s),
-                approach(turn, 0.0, limits.acc_lim_theta * period_s),
-            )
-            return stop if is_free(stop) else None
-        self._is_turning = self._has_turned = True
+        self._has_turned = self._has_turned or math.hypot(x, y) <= self._stopped_speed
         self._swings = self._swings or (angle * self._angle < 0.0 and abs(angle) < math.pi / 2.0)
         self._angle = angle
         speed = turning_speed(
@@ -141,5 +133,7 @@ class GoalStop:
             period_s=period_s,
             rest_s=_REST_S if self._swings else 0.0,
         )
-        rotation = (0.0, 0.0, speed)
+        # It brakes while it begins to turn: what it still drives is less than the tolerance.
+        step_x, step_y = limits.acc_lim_x * period_s, limits.acc_lim_y * period_s
+        rotation = (approach(x, 0.0, step_x), approach(y, 0.0, step_y), speed)
         return rotation if is_free(rotation) else None
