@@ -36,6 +36,7 @@ public:
     this->world = _world;
     CheckSdf(_sdf);
     CheckMath();
+    CheckUri();
     CheckWorld();
     this->begin = event::Events::ConnectWorldUpdateBegin(boost::bind(&Checks::OnBegin, this, _1));
     this->end = event::Events::ConnectWorldUpdateEnd(boost::bind(&Checks::OnEnd, this));
@@ -114,6 +115,26 @@ private:
     {
       CHECK(error.GetErrorStr() == "number 3");
     }
+  }
+
+  void CheckUri()
+  {
+    common::URI uri("data://world/default?p=pose&a=b");
+    CHECK(uri.Valid() && uri.Scheme() == "data" && uri.Path().Str("::") == "world::default");
+    CHECK(uri.Query().Str() == "?a=b&p=pose" && uri.Str() == "data://world/default?a=b&p=pose");
+    const common::URI copy = uri;
+    uri.Path() = common::URIPath("/default/") / "model";
+    uri.Path().PushFront("world");
+    uri.Path() /= "box";
+    uri.Query().Clear();
+    uri.Query().Insert("p", "v");
+    CHECK(uri.Str() == "data://world/default/model/box?p=v" && !(uri == copy));
+    CHECK(!uri.Parse("data://?p=v") && uri.Path().Valid() && uri.Parse(copy.Str()) && uri == copy);
+    for (const char* text : {"", "data", "data://", "://world", "data://world?p", "data://wor ld", "data://world?p=v?"})
+      CHECK(!common::URI::Valid(text));
+    CHECK(common::URIQuery::Valid("") && !common::URIQuery::Valid("p=v") && !common::URIPath::Valid("//"));
+    uri.Clear();
+    CHECK(uri.Str().empty());
   }
 
   void CheckWorld()

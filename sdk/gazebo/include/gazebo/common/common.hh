@@ -17,6 +17,7 @@
 #include <gazebo/common/Plugin.hh>
 #include <gazebo/common/Time.hh>
 #include <gazebo/common/Timer.hh>
+#include <gazebo/common/URI.hh>
 #include <gazebo/common/UpdateInfo.hh>
 #include <gazebo/util/system.hh>
 
