@@ -139,9 +139,6 @@ SPECIAL_HOSTS = {
 }
 """Start of a path → document, for elements that matter only beside others."""
 
-LABELS = {"physics@name"}
-"""Names that nothing can refer to."""
-
 UNREACHED = {
     "collision_engine": "no version of <world> or <physics> takes it in",
     "urdf": "a name that the specification keeps for URDF in SDF; no element takes it in",
@@ -244,7 +241,6 @@ def inventory() -> list[Entry]:
         if not (entry.type == "-" and (entry.path in holders or "/" not in entry.path))
         and not (entry.type.startswith("@") and entry.type[1:] not in SNIPPETS)
         and entry.path.split("/")[0].split("@")[0] not in UNREACHED
-        and entry.path not in LABELS
     ]
 
 

@@ -13,7 +13,7 @@ from trundle.base.xmlnode import parse_xml
 from trundle.gazebo.check.json_output import description_json
 from trundle.robots.description import LoadedDescription, load_text, write_sdf, write_urdf, written_uri
 from trundle.robots.description.writing.tag import Tag
-from trundle.robots.model import Joint, Link, Model, Surface, model_from_joint
+from trundle.robots.model import Joint, Link, Model, PhysicsSettings, Surface, model_from_joint
 from trundle.robots.packages import Packages
 from trundle.spatial import Pose, quaternion_from_rpy
 
@@ -52,6 +52,7 @@ def comparable(loaded: LoadedDescription) -> dict[str, object]:
 RICH = """<sdf version="1.9"><world name="w">
 <gravity>0 0 -1.6</gravity><wind><linear_velocity>1 2 3</linear_velocity></wind>
 <physics type="ode"><max_step_size>0.002</max_step_size><real_time_update_rate>0</real_time_update_rate></physics>
+<physics name="earth" type="ode"><max_step_size>0.0005</max_step_size><gravity>0 0 -9.8</gravity></physics>
 <scene><ambient>0.1 0.2 0.3 1</ambient><sky/><shadows>0</shadows><fog><type>linear</type><end>9</end></fog></scene>
 <spherical_coordinates><latitude_deg>47.5</latitude_deg></spherical_coordinates>
 <light name="lamp" type="spot"><pose>0 0 3 0 0.1 0</pose><spot><inner_angle>0.1</inner_angle>
@@ -99,7 +100,9 @@ def test_a_world_with_every_element_round_trips() -> None:
     assert same(comparable(first), comparable(second))
     assert report.findings == []
     assert len(sdf_of(second).splitlines()) == len(text.splitlines())
-    for name in ("physics", "scene", "spherical_coordinates", "wind", "magnetic_field", "atmosphere"):
+    earth = PhysicsSettings(name="earth", max_step_size_s=0.0005, gravity=(0.0, 0.0, -9.8))
+    assert (first.world.physics.gravity, first.world.other_physics) == ((0.0, 0.0, -1.6), (earth,))
+    for name in ("physics", "other_physics", "scene", "spherical_coordinates", "wind", "magnetic_field", "atmosphere"):
         assert getattr(second.world, name) == getattr(first.world, name)
     (lamp,) = second.world.lights
     assert (lamp.name, lamp.inner_angle_rad, lamp.outer_angle_rad, lamp.range_m) == ("lamp", 0.1, 0.5, 5.0)

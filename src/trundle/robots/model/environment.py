@@ -10,6 +10,8 @@ from .material import Rgba
 class PhysicsSettings(Struct, frozen=True, kw_only=True):
     """Time step, real-time rate and gravity."""
 
+    name: str = "default_physics"
+    """SDF's default."""
     max_step_size_s: float = 0.001
     real_time_factor: float = 1.0
     """As written; the update rate decides, as in Gazebo."""

@@ -32,6 +32,8 @@ class World(Struct, frozen=True, kw_only=True):
     actors: tuple["Actor", ...] = ()
     plugins: tuple["PluginTag", ...] = ()
     physics: PhysicsSettings = PhysicsSettings()
+    other_physics: tuple[PhysicsSettings, ...] = ()
+    """Profiles that a plugin in C++ may choose."""
     scene: SceneSettings = SceneSettings()
     spherical_coordinates: SphericalCoordinates = SphericalCoordinates()
     atmosphere: Atmosphere = Atmosphere()

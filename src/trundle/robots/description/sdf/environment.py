@@ -6,6 +6,7 @@ from msgspec.structs import replace
 
 from trundle.base.xmlnode import XmlNode
 from trundle.robots.model import Atmosphere, Fog, PhysicsSettings, Rgba, SceneSettings, SphericalCoordinates
+from trundle.spatial import Vector3
 
 from .context import Context, warn_ignored
 from .material import read_color
@@ -19,25 +20,26 @@ _AMBIENT: Mapping[tuple[int, int], Rgba] = {(1, 3): (0.0, 0.0, 0.0, 1.0), (1, 4)
 """Version → default of the ambient light in the versions before it; from 1.4 on, it is 0.4."""
 
 
-def read_physics(world: XmlNode, context: Context) -> PhysicsSettings:
-    """Read the default <physics> profile, or the first."""
+def read_physics(world: XmlNode, context: Context) -> list[PhysicsSettings]:
+    """Read the <physics> profiles, first the default one, which is the first if none is marked."""
+    profiles = world.all("physics")
+    gravity = world.vector("gravity", default=PhysicsSettings().gravity)
+    if not profiles:
+        return [PhysicsSettings(gravity=gravity)]
+    node = next((p for p in profiles if (p.attribute("default") or "") in ("1", "true")), profiles[0])
+    others = [other for other in profiles if other is not node]
+    for other in others:
+        context.report.info(
+            other.at,
+            f"physics profile {other.attribute('name')!r} is not the default one; only plugins in C++ switch to it",
+            "physics-profile",
+        )
+    return [_read_profile(profile, gravity, context) for profile in (node, *others)]
+
+
+def _read_profile(node: XmlNode, gravity: Vector3, context: Context) -> PhysicsSettings:
     report = context.report
     default = PhysicsSettings()
-    profiles = world.all("physics")
-    node = next((p for p in profiles if (p.attribute("default") or "") in ("1", "true")), None)
-    node = node or (profiles[0] if profiles else None)
-    for other in profiles:
-        if other is not node:
-            report.info(
-                other.at,
-                f"physics profile {other.attribute('name')!r} is not the default one; it is not used",
-                "physics-profile",
-            )
-    gravity_parent = node if node is not None and node.find("gravity") is not None else world
-    if node is None:
-        return PhysicsSettings(gravity=world.vector("gravity", default=default.gravity))
-    gravity = gravity_parent.vector("gravity", default=default.gravity)
-    world.find("gravity")
     step = _step(node, context)
     if not 1e-6 <= step <= 1.0:
         report.warn(
@@ -56,9 +58,14 @@ def read_physics(world: XmlNode, context: Context) -> PhysicsSettings:
     if (node.attribute("type") or "ode") != "ode":
         report.info(node.at, f"physics of type {node.attribute('type')!r}: the engine here is MuJoCo", "physics-engine")
     node.attributes()
+    gravity = node.vector("gravity", default=gravity)
     node.report_unread(report)
     return PhysicsSettings(
-        max_step_size_s=step, real_time_factor=factor, real_time_update_rate_hz=max(rate, 0.0), gravity=gravity
+        name=node.attribute("name") or default.name,
+        max_step_size_s=step,
+        real_time_factor=factor,
+        real_time_update_rate_hz=max(rate, 0.0),
+        gravity=gravity,
     )
 
 

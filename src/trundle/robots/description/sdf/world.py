@@ -72,6 +72,7 @@ def read_world(node: XmlNode, context: Context) -> World:
     )
     for merged_model in contents.merged:
         whole = merged_model.merge_into(whole, contents.graph)
+    physics, *other_physics = read_physics(node, context)
     models, lights = apply_state(node, name, whole.models, contents.lights, context)
     world = World(
         name=name,
@@ -83,7 +84,8 @@ def read_world(node: XmlNode, context: Context) -> World:
         roads=tuple(road for child in node.all("road") if (road := read_road(child, context)) is not None),
         actors=_actors(node, context),
         plugins=whole.plugins,
-        physics=read_physics(node, context),
+        physics=physics,
+        other_physics=tuple(other_physics),
         scene=read_scene(node, context),
         spherical_coordinates=read_spherical_coordinates(node, context),
         atmosphere=read_atmosphere(node, context),

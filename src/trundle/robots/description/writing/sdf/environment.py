@@ -31,10 +31,14 @@ def add_light(home: Tag, light: Light) -> None:
 
 def add_environment(home: Tag, world: World) -> None:
     """Append the settings of a world, without its models."""
-    physics = home.add("physics", name="default", type="ode")
-    physics.add("max_step_size", world.physics.max_step_size_s)
-    physics.add("real_time_factor", world.physics.real_time_factor)
-    physics.add("real_time_update_rate", world.physics.real_time_update_rate_hz)
+    profiles = (world.physics, *world.other_physics)
+    for physics in profiles:
+        tag = home.add("physics", name=physics.name, type="ode")
+        tag.add("max_step_size", physics.max_step_size_s)
+        tag.add("real_time_factor", physics.real_time_factor)
+        tag.add("real_time_update_rate", physics.real_time_update_rate_hz)
+        if any(other.gravity != world.physics.gravity for other in profiles):
+            tag.add("gravity", physics.gravity)
     home.add("gravity", world.physics.gravity)
     home.add("magnetic_field", world.magnetic_field)
     if world.wind != ZERO:
