@@ -70,7 +70,8 @@ void Builder::SetHost(const WorldPtr& world, const TrundleGazeboHost* host, cons
         common::SphericalCoordinates::EARTH_WGS84, degrees("latitude_deg"), degrees("longitude_deg"),
         place->Get<double>("elevation", 0.0).first, degrees("heading_deg"));
   }
-  const sdf::ElementPtr physics = sdf ? sdf->FindElement("physics") : sdf::ElementPtr();
+  world->presets_ = boost::make_shared<PresetManager>(world->physics_, sdf);
+  const sdf::ElementPtr physics = world->presets_->ProfileSDF(world->presets_->CurrentProfile());
   if (!physics) return;
   world->physics_->update_rate_ = physics->Get<double>("real_time_update_rate", 1000.0).first;
   world->physics_->real_time_factor_ = physics->Get<double>("real_time_factor", 1.0).first;

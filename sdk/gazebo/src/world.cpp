@@ -20,8 +20,45 @@ double PhysicsEngine::GetMaxStepSize() const {
   return static_cast<double>(host->step_ns(host->self)) * 1e-9;
 }
 
+void PhysicsEngine::SetMaxStepSize(double step_s) { world_->Request({"step_size"}, {step_s}); }
+
 math::Vector3 PhysicsEngine::GetGravity() const { return world_->Gravity(); }
 void PhysicsEngine::SetGravity(const ignition::math::Vector3d& gravity) { world_->SetGravity(gravity); }
+
+bool PhysicsEngine::SetParam(const std::string& key, const boost::any& value) {
+  using ignition::math::Vector3d;
+  if (key == "max_step_size") {
+    if (const double* step_s = boost::any_cast<double>(&value)) return SetMaxStepSize(*step_s), true;
+    gzerr << "max_step_size is a double\n";
+  } else if (key == "gravity") {
+    if (const Vector3d* gravity = boost::any_cast<Vector3d>(&value)) return SetGravity(*gravity), true;
+    if (const math::Vector3* gravity = boost::any_cast<math::Vector3>(&value)) return SetGravity(gravity->Ign()), true;
+    gzerr << "gravity is a vector\n";
+  } else if (key == "real_time_factor" || key == "real_time_update_rate") {
+    const double* number = boost::any_cast<double>(&value);
+    if (number && *number == boost::any_cast<double>(GetParam(key))) return true;
+    gzwarn << key << " is not set: the page and --speed set the pace\n";
+  } else {
+    gzwarn << key << " of the physics is not set: plugins set max_step_size and gravity; the engine is not Gazebo's\n";
+  }
+  return false;
+}
+
+bool PhysicsEngine::GetParam(const std::string& key, boost::any& value) const {
+  if (key == "type") value = GetType();
+  else if (key == "max_step_size") value = GetMaxStepSize();
+  else if (key == "real_time_factor") value = GetTargetRealTimeFactor();
+  else if (key == "real_time_update_rate") value = GetRealTimeUpdateRate();
+  else if (key == "gravity") value = world_->Gravity();
+  else return gzwarn << "the physics have no " << key << "; the engine is not Gazebo's\n", false;
+  return true;
+}
+
+boost::any PhysicsEngine::GetParam(const std::string& key) const {
+  boost::any value;
+  GetParam(key, value);
+  return value;
+}
 
 JointPtr PhysicsEngine::CreateJoint(const std::string& type, ModelPtr model) {
   const JointPtr joint = boost::make_shared<Joint>(model);

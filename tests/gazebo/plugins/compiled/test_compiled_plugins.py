@@ -122,6 +122,30 @@ def test_the_interface_says_and_does_what_is_documented(built: Path) -> None:
     assert re.search(r"^14\d\d checks, 0 failed$", done.stdout, re.MULTILINE), done.stdout + done.stderr
 
 
+def test_a_plugin_switches_between_the_profiles_of_the_physics(built: Path) -> None:
+    """Both <physics> of a world and one that the plugin makes; step and gravity follow, ODE's iterations do not."""
+    done = run(_SOURCES / "drive/presets.world", "--no-ros", GAZEBO_PLUGIN_PATH=str(built / "build"))
+
+    said = [line for line in done.stdout.splitlines() if re.match(r"(profile|earth|mine|before|deep|re|s|it)", line)]
+    assert said[:14] == [
+        "profile earth",
+        "profile moon",
+        "earth at 1000 Hz",
+        "mine: 1 0 0.004 ode",
+        "before: 0.001",
+        "deep: 70 0.001",
+        "removed: 0 0",
+        "step 1: earth, 0.001 s, -9.8",
+        "switched: 1",
+        "step 8: moon, 0.002 s, -1.6",
+        "set: 1",
+        "iterations: 0",
+        "step 18: moon, 0.005 s, -1.6",
+        "step 28: earth, 0.001 s, -9.8",
+    ], done.stdout + done.stderr
+    assert "iters of the physics is not set" in done.stderr
+
+
 def test_elevators_and_harnesses_work(built: Path) -> None:
     """A lift goes to the floor at 2 m, opens and shuts; a load is pulled up by 0.5 m, held, and falls."""
     words = ("run", "machines.world", "--headless", "--duration", "8", "--speed", "max", "--no-ros")

@@ -15,6 +15,7 @@
 #include <gazebo/common/UpdateInfo.hh>
 #include <gazebo/physics/Model.hh>
 #include <gazebo/physics/PhysicsEngine.hh>
+#include <gazebo/physics/PresetManager.hh>
 
 namespace gazebo {
 namespace physics {
@@ -36,6 +37,8 @@ class World : public boost::enable_shared_from_this<World> {
   void SetPaused(bool is_paused) { is_paused_ = is_paused; }
   bool Running() const { return true; }
   PhysicsEnginePtr Physics() const { return physics_; }
+  // Its <physics> elements by their names.
+  PresetManagerPtr PresetMgr() const { return presets_; }
   // Without physics nothing moves but what plugins move, and time goes on.
   bool PhysicsEnabled() const { return physics_enabled_; }
   void SetPhysicsEnabled(bool is_enabled);
@@ -74,6 +77,7 @@ class World : public boost::enable_shared_from_this<World> {
   void EnablePhysicsEngine(bool is_enabled) { SetPhysicsEnabled(is_enabled); }
   common::SphericalCoordinatesPtr GetSphericalCoordinates() const { return spherical_coordinates_; }
   PhysicsEnginePtr GetPhysicsEngine() const { return Physics(); }
+  PresetManagerPtr GetPresetManager() const { return PresetMgr(); }
   unsigned int GetModelCount() const { return ModelCount(); }
   ModelPtr GetModel(unsigned int index) const { return ModelByIndex(index); }
   ModelPtr GetModel(const std::string& name) const { return ModelByName(name); }
@@ -101,6 +105,7 @@ class World : public boost::enable_shared_from_this<World> {
   std::string name_;
   const TrundleGazeboHost* host_;
   PhysicsEnginePtr physics_;
+  PresetManagerPtr presets_;
   Model_V models_;
   Joint_V made_joints_;
   Entity_V animated_;

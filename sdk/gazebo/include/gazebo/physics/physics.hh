@@ -16,6 +16,7 @@
 #include <gazebo/physics/PhysicsEngine.hh>
 #include <gazebo/physics/PhysicsIface.hh>
 #include <gazebo/physics/PhysicsTypes.hh>
+#include <gazebo/physics/PresetManager.hh>
 #include <gazebo/physics/Shape.hh>
 #include <gazebo/physics/SurfaceParams.hh>
 #include <gazebo/physics/World.hh>
