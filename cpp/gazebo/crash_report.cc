@@ -90,7 +90,7 @@ void on_fault(int signal) {
       print(kNames[i]);
       print(")");
       const char* hint = hinting ? hinting->hint() : "";
-      print(*hint ? "; before that it looked for a parameter that is missing: " : "");
+      print(*hint ? "; before that " : "");
       print(hint);
       print("; compiled with -DCMAKE_BUILD_TYPE=Debug, a debugger shows the line\n");
       print_frames(on_fault);

@@ -21,7 +21,14 @@ namespace gazebo {
 
 // A loaded plugin, of any kind.
 struct LoadedPlugin {
-  const char* name;
+  // A destructor is the plugin's code, too.
+  ~LoadedPlugin() {
+    const event::internal::Running running(owner);
+    reset = nullptr;
+    object.reset();
+  }
+
+  event::internal::Owner owner;
   std::string model;
   int number;
   boost::shared_ptr<void> object;
@@ -43,6 +50,8 @@ namespace {
 std::mutex worlds_mutex;
 std::vector<OpenWorld*> worlds;
 thread_local event::internal::Owner current = {nullptr, nullptr, nullptr};
+// By the Load of the plugin that is destroyed for it; else empty.
+thread_local std::string thrown;
 
 // A text that is never freed: connections name their plugin after its end.
 const char* kept(const char* text) {
@@ -150,7 +159,7 @@ std::string load_plugin(OpenWorld& open, LoadedPlugin& loaded, void* library, co
   const auto kind = reinterpret_cast<int (*)()>(dlsym(library, "TrundleGazeboPluginKind"));
   const auto make = reinterpret_cast<void* (*)()>(dlsym(library, "TrundleGazeboMakePlugin"));
   if (!kind || !make) return "it registers no plugin; GZ_REGISTER_MODEL_PLUGIN(…) does";
-  const char* name = loaded.name;
+  const char* name = loaded.owner.plugin;
   switch (kind()) {
     case MODEL_PLUGIN: {
       const physics::ModelPtr model = open.world->ModelByName(parent);
@@ -184,10 +193,9 @@ std::string load_plugin(OpenWorld& open, LoadedPlugin& loaded, void* library, co
       static char* arguments[] = {program, nullptr};
       plugin->Load(1, arguments);
       plugin->Init();
-      const event::internal::Owner owner = {name, open.world.get(), &open.host};
       for (const physics::ModelPtr& model : open.world->Models())
-        event::Events::addEntity.SignalTo(owner, model->GetName());
-      event::Events::worldCreated.SignalTo(owner, open.world->Name());
+        event::Events::addEntity.SignalTo(loaded.owner, model->GetName());
+      event::Events::worldCreated.SignalTo(loaded.owner, open.world->Name());
       return "";
     }
     case VISUAL_PLUGIN: {
@@ -207,20 +215,24 @@ int load(void* self, void* library, const char* parent, const char* name, const 
          int64_t size, char* reason, int reason_size) {
   OpenWorld& open = *static_cast<OpenWorld*>(self);
   std::unique_ptr<LoadedPlugin> loaded(new LoadedPlugin);
-  loaded->name = kept(name);
+  loaded->owner = {kept(name), open.world.get(), &open.host};
   loaded->model = parent;
   std::string fault;
   {
-    const event::internal::Running running({loaded->name, open.world.get(), &open.host});
+    const event::internal::Running running(loaded->owner);
     try {
       fault = load_plugin(open, *loaded, library, parent, file, physics::read_elements(elements, size));
     } catch (...) {
-      fault = describe_exception();
+      fault = thrown = describe_exception();
     }
   }
   std::snprintf(reason, static_cast<std::size_t>(reason_size), "%s", fault.c_str());
   open.world->ConnectJoints();
-  if (!fault.empty()) return 0;
+  if (!fault.empty()) {
+    loaded.reset();
+    thrown.clear();
+    return 0;
+  }
   open.plugins.push_back(std::move(loaded));
   return open.plugins.back()->number = ++open.last_number;
 }
@@ -243,11 +255,11 @@ void reset(void* self, int number) {
   if (number == 0) event::Events::worldReset.SignalIn(open.world.get());
   for (const std::unique_ptr<LoadedPlugin>& plugin : open.plugins) {
     if (plugin->number != number || !plugin->reset) continue;
-    const event::internal::Running running({plugin->name, open.world.get(), &open.host});
+    const event::internal::Running running(plugin->owner);
     try {
       plugin->reset();
     } catch (...) {
-      event::internal::ReportException({plugin->name, open.world.get(), &open.host});
+      event::internal::ReportException(plugin->owner);
     }
   }
 }
@@ -270,7 +282,9 @@ void take_reading(void* self, int number, int64_t time_ns, const TrundleGazeboRe
 
 const char* hint() {
   static thread_local std::string text;
-  return (text = sdf::LastMissingElement()).c_str();
+  if (!thrown.empty()) text = "its Load threw: " + thrown;
+  else if (!(text = sdf::LastMissingElement()).empty()) text.insert(0, "it looked for a parameter that is missing: ");
+  return text.c_str();
 }
 
 const TrundleGazeboKit kit = {TRUNDLE_GAZEBO_ABI, open_world, close_world,   add_model,    remove_model, load,

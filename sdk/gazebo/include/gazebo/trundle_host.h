@@ -110,7 +110,7 @@ struct TrundleGazeboKit {
   void (*take_reading)(void* world, int plugin, int64_t time_ns, const struct TrundleGazeboReading* reading);
   /* After a reset: of a plugin, by its number; 0: of the world, before its plugins. */
   void (*reset)(void* world, int plugin);
-  /* Why the last plugin may have crashed, such as a parameter that it looked for; "" if nothing is known. */
+  /* What came before a crash in this thread, as a clause, such as "its Load threw: …"; "" if nothing is known. */
   const char* (*hint)(void);
 };
 

@@ -8,11 +8,18 @@ namespace gazebo
 class Faulty : public ModelPlugin
 {
 public:
+  ~Faulty()
+  {
+    if (this->needsJoint)
+      this->model->GetJoint("no_such_joint").get()->SetForce(0, 1.0);
+  }
+
   void Load(physics::ModelPtr _model, sdf::ElementPtr _sdf)
   {
     this->model = _model;
     const std::string fault = _sdf->Get<std::string>("fault");
-    if (fault == "load")
+    this->needsJoint = fault == "destructor" || fault == "end";
+    if (fault == "load" || fault == "destructor")
       throw std::runtime_error("no wheels");
     if (fault == "parameter")
       this->value = _sdf->GetElement("radius")->Get<double>();
@@ -29,6 +36,7 @@ public:
 
 private:
   physics::ModelPtr model;
+  bool needsJoint = false;
   double value = 0.0;
   event::ConnectionPtr connection;
 };

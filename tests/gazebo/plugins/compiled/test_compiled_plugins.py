@@ -260,6 +260,20 @@ def test_a_crash_says_which_parameter_was_missing(built: Path, tmp_path: Path) -
     assert done.returncode == -signal.SIGSEGV
 
 
+def test_a_crash_of_the_destructor_says_what_load_threw_before(built: Path, tmp_path: Path) -> None:
+    done = fault(built, tmp_path, "destructor")
+
+    assert "plugin 'bad' crashed in its C++ code (SIGSEGV); before that its Load threw: no wheels;" in done.stderr
+    assert done.returncode == -signal.SIGSEGV
+
+
+def test_a_crash_of_the_destructor_at_the_end_names_its_plugin(built: Path, tmp_path: Path) -> None:
+    done = fault(built, tmp_path, "end")
+
+    assert "3.000 s simulated" in done.stdout + done.stderr
+    assert "plugin 'bad' crashed in its C++ code (SIGSEGV)" in done.stderr
+
+
 @pytest.mark.parametrize("words", [("check",), ("convert", "--to", "urdf")])
 def test_other_commands_load_none(built: Path, tmp_path: Path, words: tuple[str, ...]) -> None:
     file = robot(tmp_path / "rp2w", '<plugin name="bad" filename="libfaulty.so"><fault>parameter</fault></plugin>')
