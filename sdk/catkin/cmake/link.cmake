@@ -5,5 +5,5 @@ if(NOT APPLE AND NOT WIN32 AND NOT "${CMAKE_CXX_STANDARD_LIBRARIES}" MATCHES "as
   list(TRANSFORM _trundle_files REPLACE "(.+)" " \"\\1\"")
   list(JOIN _trundle_files "" _trundle_files)
   string(APPEND CMAKE_CXX_STANDARD_LIBRARIES
-    " -Wl,--push-state,--as-needed${_trundle_files} -Wl,--pop-state -Wl,-rpath,\"${TRUNDLE_KIT}/lib\"")
+    " -Wl,--as-needed${_trundle_files} -Wl,-rpath,\"${TRUNDLE_KIT}/lib\"")
 endif()
