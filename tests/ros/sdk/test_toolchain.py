@@ -107,6 +107,7 @@ def test_without_a_compiler_zigs_is_taken(tmp_path: Path, monkeypatch: pytest.Mo
         f"-DCMAKE_C_COMPILER={tools}/cc",
         f"-DCMAKE_AR={tools}/ar",
         f"-DCMAKE_RANLIB={tools}/ranlib",
+        f"-DTRUNDLE_ZIG={package}/lib",
     ]
     assert zig_definitions("/usr/bin/c++") == []
 

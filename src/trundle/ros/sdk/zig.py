@@ -47,4 +47,6 @@ def zig_definitions(compiler: str) -> list[str]:
     if folder.parts[-2:] != ("trundle", "zig"):
         return []
     tools = {"CMAKE_C_COMPILER": "cc", "CMAKE_AR": "ar", "CMAKE_RANLIB": "ranlib"}
-    return [f"-D{variable}={folder / name}" for variable, name in tools.items()]
+    definitions = [f"-D{variable}={folder / name}" for variable, name in tools.items()]
+    spec = importlib.util.find_spec("ziglang")
+    return definitions if spec is None else [*definitions, f"-DTRUNDLE_ZIG={Path(str(spec.origin)).parent / 'lib'}"]
