@@ -34,21 +34,39 @@ OWN = {"hector": HECTOR, "karto": KARTO}
 LAUNCH = """
 <launch>
   <include file="$(find house_nav)/launch/sim.launch"/>
+  <param name="robot_description" textfile="{robot}"/>
   {nodes}
-  <node if="{is_driven}" pkg="rostopic" type="rostopic" name="drive" args="pub /cmd_vel geometry_msgs/Twist
-    '{{linear: {{x: 0.2}}, angular: {{z: -0.4}}}}'"/>
 </launch>
 """
+CIRCLES = """
+from trundle.gazebo.plugins import Plugin
+
+class Circles(Plugin):
+    period_ns = 100_000_000
+
+    @classmethod
+    def load(cls, sim, model, node, tag):
+        plugin = cls()
+        plugin.commands = node.advertise("/cmd_vel", "geometry_msgs/Twist", queue_size=1)
+        return plugin
+
+    def after_step(self, snapshot):
+        self.commands.publish({"linear": {"x": 0.2}, "angular": {"z": -0.4}})
+"""
+"""Plugin that commands a velocity; `rostopic pub` would begin after some of the simulated time, or all of it."""
 
 
-def drive(house: Path, folder: Path, nodes: str, *, name: str, arguments: str = "", is_driven: bool = True) -> Path:
-    """Drive in circles for 30 s, or rest for 5 s, flat out; returns the bag."""
-    file, bag = folder / f"{name}.launch", folder / f"{name}.bag"
+def drive(house: Path, folder: Path, nodes: str, *, name: str, arguments: str = "") -> Path:
+    """Drive in circles for 30 s, flat out; returns the bag."""
+    file, robot, bag = folder / f"{name}.launch", folder / "robot.urdf", folder / f"{name}.bag"
+    (folder / "circles.py").write_text(CIRCLES)
+    tag = '<gazebo><plugin name="circles" filename="libcircles.so"/></gazebo>'
+    robot.write_text((house / "urdf/housebot.urdf").read_text().replace("</robot>", f"{tag}</robot>"))
     included = f'<include file="$(find house_nav)/launch/{nodes}.launch">{arguments}</include>'
-    file.write_text(LAUNCH.format(nodes=OWN.get(nodes, included), is_driven=is_driven))
+    file.write_text(LAUNCH.format(nodes=OWN.get(nodes, included), robot=robot))
     command = [sys.executable, "-m", "trundle", "launch", "--port", "0", str(file), "--headless"]
-    options = ["--speed", "max", "--duration", "30" if is_driven else "5", "--record", str(bag)]
-    env = {**os.environ, "ROS_PACKAGE_PATH": str(house)}
+    options = ["--speed", "max", "--duration", "30", "--record", str(bag)]
+    env = {**os.environ, "ROS_PACKAGE_PATH": str(house), "TRUNDLE_PLUGIN_PATH": str(folder)}
     subprocess.run([*command, *options], env=env, check=True, timeout=600, stdout=subprocess.DEVNULL)
     return bag
 
@@ -96,8 +114,8 @@ def test_amcl_finds_a_driving_robot_from_a_wrong_guess(house: Path, tmp_path: Pa
 
 @pytest.mark.parametrize("nodes", ["amcl", "gmapping", "hector", "karto"])
 def test_recordings_are_the_same_in_every_run(house: Path, tmp_path: Path, nodes: str) -> None:
-    """Random numbers have a seed, and time waits for the nodes. The robot rests: rostopic pub has no simulated time."""
-    bags = [drive(house, tmp_path, nodes, name=f"{nodes}{number}", is_driven=False) for number in (1, 2)]
+    """Random numbers have a seed, and time waits for the nodes."""
+    bags = [drive(house, tmp_path, nodes, name=f"{nodes}{number}") for number in (1, 2)]
 
     assert read(bags[0], "/particlecloud" if nodes == "amcl" else "/map")
     assert bags[0].read_bytes() == bags[1].read_bytes()
