@@ -58,7 +58,7 @@ class GoalStop:
         self._drifts = self._swings = False
         """Whether a turn took the robot away from the goal, and whether one passed its end."""
         self._angle = 0.0
-        """What was left of the turn [rad]."""
+        """Angle from the robot's direction to the goal's at the last command [rad]."""
 
     def reset(self, *, is_new_goal: bool) -> None:
         """Begin a plan."""
