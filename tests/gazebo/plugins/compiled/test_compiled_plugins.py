@@ -246,24 +246,18 @@ def test_an_exception_in_an_update_is_a_sentence(built: Path, tmp_path: Path) ->
     assert done.returncode == 0
 
 
-def test_a_crash_names_its_plugin_and_ends_the_process_by_its_signal(built: Path, tmp_path: Path) -> None:
-    done = fault(built, tmp_path, "crash")
+@pytest.mark.parametrize(
+    ("kind", "words"),
+    [
+        ("crash", "trundle: error: plugin 'bad' crashed in its C++ code (SIGSEGV)"),
+        ("parameter", "it looked for a parameter that is missing: <plugin> has no <radius>"),
+        ("destructor", "plugin 'bad' crashed in its C++ code (SIGSEGV); before that its Load threw: no wheels;"),
+    ],
+)
+def test_a_crash_names_its_plugin_and_what_came_before(built: Path, tmp_path: Path, kind: str, words: str) -> None:
+    done = fault(built, tmp_path, kind)
 
-    assert "trundle: error: plugin 'bad' crashed in its C++ code (SIGSEGV)" in done.stderr
-    assert done.returncode == -signal.SIGSEGV
-
-
-def test_a_crash_says_which_parameter_was_missing(built: Path, tmp_path: Path) -> None:
-    done = fault(built, tmp_path, "parameter")
-
-    assert "it looked for a parameter that is missing: <plugin> has no <radius>" in done.stderr
-    assert done.returncode == -signal.SIGSEGV
-
-
-def test_a_crash_of_the_destructor_says_what_load_threw_before(built: Path, tmp_path: Path) -> None:
-    done = fault(built, tmp_path, "destructor")
-
-    assert "plugin 'bad' crashed in its C++ code (SIGSEGV); before that its Load threw: no wheels;" in done.stderr
+    assert words in done.stderr
     assert done.returncode == -signal.SIGSEGV
 
 
