@@ -22,7 +22,7 @@ LAUNCH = """<launch>
 <param name="robot_description" textfile="$(dirname)/robot.urdf"/>
 <node pkg="gazebo_ros" type="gzserver" name="gazebo" args="$(dirname)/yard.world"/>
 <node pkg="gazebo_ros" type="gzclient" name="gzclient"/>
-<node pkg="gazebo_ros" type="spawn_model" name="spawn" args="-urdf -param robot_description -model robot -z 1"/>
+<node pkg="gazebo_ros" type="spawn_model" name="spawn" args="-urdf -param robot_description -model robot -z 4"/>
 <node pkg="robot_state_publisher" type="robot_state_publisher" name="states"/>
 </launch>"""
 
