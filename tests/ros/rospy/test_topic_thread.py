@@ -17,7 +17,9 @@ from sensor_msgs.msg import Image
 from std_msgs.msg import Int32, String
 
 rospy.init_node("tested")
-told = rospy.Publisher("told", String, queue_size=None, latch=True)
+told = rospy.Publisher("told", String, queue_size=None)
+while not told.get_num_connections():
+    rospy.sleep(0.001)
 def tell(*words):
     told.publish(" ".join(map(str, words)))
 """
