@@ -1,12 +1,14 @@
 """Playing of bags: pauses, /clock, latched topics, rate control."""
 
+import itertools
 from collections.abc import Sequence
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
-from trundle.ros import BagConnection, BagMessage, Messages, Player, PlayerOptions, create_bag, open_bag
+from trundle.ros import BagConnection, BagMessage, Messages, Player, PlayerOptions, create_bag, open_bag, to_nsec
 
 STRING = "std_msgs/String"
 _CONNECTION = BagConnection(topic="/a", type=STRING, md5sum=Messages().md5(STRING), definition="string data\n")
@@ -84,6 +86,25 @@ def test_the_clock_is_published_in_a_pause_and_after_the_end(graph: Any, tmp_pat
             player.keep_alive(stop_after_the_end)
     assert clock == sorted(clock)
     assert [clock.count(second * 10**9) >= 3 for second in (1, 2)] == [True, True]
+
+
+def test_the_clock_never_goes_back_on_a_busy_machine(
+    graph: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Between two looks at the wall's clock, a program may stand still."""
+    ticks = itertools.count()
+    monkeypatch.setattr("trundle.ros.bags.play.time", SimpleNamespace(monotonic=lambda: next(ticks) * 0.07, sleep=id))
+    content = [("/a", "", False, second) for second in range(1, 20)]
+    clock: list[int] = []
+    node = graph.node("listener")
+    following = node.subscribe("/clock", "rosgraph_msgs/Clock", lambda m: clock.append(to_nsec(m.clock)), queue_size=None)
+    with open_bag(_bag(tmp_path / "x.bag", content)) as bag:
+        player = Player(graph.node("play"), [bag], PlayerOptions(clock_hz=100.0))
+        player.advertise()
+        graph.until(lambda: following.publishers)
+        player.play(lambda: graph.until(lambda: not clock or clock[-1] == player.now_ns))
+        graph.until(lambda: clock and clock[-1] == 19 * 10**9)
+    assert clock == sorted(clock)
 
 
 def test_pause_topics_can_be_disabled(graph: Any, tmp_path: Path) -> None:

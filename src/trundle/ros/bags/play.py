@@ -147,7 +147,7 @@ class Player:
             wait_s = 0.0 if options.immediate else self._pace.wait_s(message.stamp_ns)
             if wait_s <= 0.0:
                 return
-            self.now_ns = self._pace.now_ns()
+            self.now_ns = min(self._pace.now_ns(), message.stamp_ns)  # a busy machine may have slept past it
             self._sleep(wait_s)
 
     def _sleep(self, max_s: float) -> None:
