@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from PIL import Image
+from tests.graphs import free_port
 from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 from tests.page.simulated_world.worlds import BOX, CAMERA, model, world
@@ -62,7 +63,7 @@ def test_camera_plugin_and_waiting_have_their_times(chromium: Any, tmp_path: Pat
         user.close()
 
 
-@pytest.mark.parametrize(("panel", "head"), [("Performance", ".data th"), ("Timeline", ".timeline .ruler")])
+@pytest.mark.parametrize(("panel", "head"), [("Performance", ".data thead"), ("Timeline", ".timeline .ruler")])
 def test_the_head_of_a_panel_is_drawn_only_in_the_panel(chromium: Any, panel: str, head: str) -> None:
     """Chromium drew sticky heads a second time, as a band across the scene."""
     with running_page("run", "rp2w_at_home.world", "--port", "0", environment={}) as url:
@@ -81,4 +82,28 @@ def test_the_head_of_a_panel_is_drawn_only_in_the_panel(chromium: Any, panel: st
         picture = np.asarray(Image.open(io.BytesIO(page.screenshot())).convert("RGB"))
         scene = picture[90 : int(disc["y"]) - 40, int(dock["x"]) + 4 : int(dock["x"] + dock["width"]) - 4]
         assert (scene.max(axis=2) < 40).mean(axis=1).max() < 0.5  # the room is bright, the panels are dark
+        page.close()
+
+
+def test_the_heads_of_a_table_leave_the_scene_whole(chromium: Any, tmp_path: Path) -> None:
+    """Chromium cut a hole into the scene, as high and wide as the heads of the topics."""
+    shown = tmp_path / "grid.rviz"
+    shown.write_text("Visualization Manager: {Displays: [{Class: rviz/Grid, Name: Grid, Enabled: true}]}")
+    launch = tmp_path / "grid.launch"
+    launch.write_text(
+        '<launch><include file="$(find gazebo_ros)/launch/empty_world.launch"/>'
+        f'<node pkg="rviz" type="rviz" name="rviz" args="-d {shown}"/></launch>'
+    )
+    port = ("-p", str(free_port()))
+    with running_page("launch", str(launch), *port, "--view-port", "0", environment={}) as url:
+        page = chromium.new_page(viewport={"width": 1280, "height": 800})
+        page.set_default_timeout(60_000)
+        page.goto(url)
+        page.get_by_label("Connected").first.wait_for()
+        page.get_by_role("tab", name="Topics").click()
+        page.locator(".data th").first.wait_for()
+        page.add_style_tag(content="body, main.scene { background: red !important }")
+        page.wait_for_timeout(6000)
+        picture = np.asarray(Image.open(io.BytesIO(page.screenshot())).convert("RGB"))
+        assert not (picture == (255, 0, 0)).all(axis=2).any()
         page.close()
