@@ -97,7 +97,9 @@ def test_the_clock_never_goes_back_on_a_busy_machine(
     content = [("/a", "", False, second) for second in range(1, 20)]
     clock: list[int] = []
     node = graph.node("listener")
-    following = node.subscribe("/clock", "rosgraph_msgs/Clock", lambda m: clock.append(to_nsec(m.clock)), queue_size=None)
+    following = node.subscribe(
+        "/clock", "rosgraph_msgs/Clock", lambda m: clock.append(to_nsec(m.clock)), queue_size=None
+    )
     with open_bag(_bag(tmp_path / "x.bag", content)) as bag:
         player = Player(graph.node("play"), [bag], PlayerOptions(clock_hz=100.0))
         player.advertise()
