@@ -38,9 +38,11 @@ class ScanQueue:
         """Process until cancelled."""
         while True:
             await self._is_waiting.wait()
-            with self._node.loop.work.pending("the scan matching"):
+            work = self._node.loop.work
+            with work.pending():  # not only one after the other: time would go on between them
                 while self._waiting:
-                    await self._process(self._waiting.popleft())
+                    with work.pending(f"a scan's processing by {self._node.name}"):
+                        await self._process(self._waiting.popleft())
             self._is_waiting.clear()
 
 
