@@ -19,6 +19,7 @@ import "./map";
 import "./marker";
 import "./motion_planning";
 import "./moveit_robot_state";
+import "./octomap";
 import "./odometry";
 import "./path";
 import "./planning_scene";

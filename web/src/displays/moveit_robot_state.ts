@@ -96,7 +96,7 @@ class RobotStateDisplay extends ArmDisplay {
     const attached = new SceneContents();
     for (const body of state.attached_collision_objects) attached.attached.set(body.object.id, body);
     const look = { isShown: true, alpha: this.alpha.value.peek(), attachedColor: this.attachedColor.value.peek() };
-    const unused = { color: [0, 0, 0], occupied: false, free: false, coloring: "" } as const;
+    const unused = { color: [0, 0, 0], rendering: "", coloring: "" } as const;
     const nowhere = { position: ghost.position, orientation: ghost.quaternion };
     drawing.draw(attached, { ...look, ...unused }, ghost.poses, () => nowhere);
     this.context.scene.invalidate();

@@ -22,12 +22,11 @@ import { positionsOf, rootOf } from "./moveit/robot_state";
 import type { RobotGhost } from "./moveit/robot_ghost";
 import { SceneContents } from "./moveit/scene_contents";
 import { SceneDrawing, type SceneLook } from "./moveit/scene_drawing";
+import { OCCUPIED, RENDERINGS } from "./moveit/voxel_boxes";
 import { register } from "./registry";
 import type { LinkProperty } from "./robot/link_view";
 
 const SCENE = "moveit_msgs/PlanningScene";
-const OCCUPIED = "Occupied Voxels";
-const FREE = "Free Voxels";
 /** All of PlanningSceneComponents. */
 const ALL_COMPONENTS = 1023;
 const HERE: Transform = identity();
@@ -48,9 +47,7 @@ export class PlanningSceneDisplay extends ArmDisplay {
   private readonly showGeometry = this.geometry.add(new BoolProperty("Show Scene Geometry", true));
   private readonly sceneAlpha = this.geometry.add(new NumberProperty("Scene Alpha", 0.9, { min: 0, max: 1 }));
   private readonly sceneColor = this.geometry.add(new ColorProperty("Scene Color", [50, 230, 50]));
-  private readonly voxels = this.geometry.add(
-    new EnumProperty("Voxel Rendering", OCCUPIED, [OCCUPIED, FREE, "All Voxels"]),
-  );
+  private readonly voxels = this.geometry.add(new EnumProperty("Voxel Rendering", OCCUPIED, RENDERINGS));
   private readonly voxelColors = this.geometry.add(
     new EnumProperty("Voxel Coloring", "Z-Axis", ["Z-Axis", "Cell Probability"]),
   );
@@ -187,14 +184,12 @@ export class PlanningSceneDisplay extends ArmDisplay {
   }
 
   private get look(): SceneLook {
-    const voxels = this.voxels.value.peek();
     return {
       isShown: this.showGeometry.value.peek(),
       alpha: this.sceneAlpha.value.peek(),
       color: this.sceneColor.value.peek(),
       attachedColor: this.attachedColor.value.peek(),
-      occupied: voxels !== FREE,
-      free: voxels !== OCCUPIED,
+      rendering: this.voxels.value.peek(),
       coloring: this.voxelColors.value.peek(),
     };
   }

@@ -34,10 +34,11 @@ export abstract class TopicDisplay<M extends Stamped> extends Display {
   constructor(
     context: DisplayContext,
     private readonly types: readonly string[],
+    topicName = "Topic",
   ) {
     super(context);
     this.topicProperty = this.add(
-      new TopicProperty("Topic", "", types, { description: `${types.join(" or ")} topic to subscribe to.` }),
+      new TopicProperty(topicName, "", types, { description: `${types.join(" or ")} topic to subscribe to.` }),
     );
     this.add(
       new BoolProperty("Unreliable", false, {

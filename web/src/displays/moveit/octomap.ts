@@ -16,6 +16,8 @@ export interface Voxels {
   readonly boxes: Float32Array;
   /** Probability of each that it is occupied, 0…1. */
   readonly probabilities: Float32Array;
+  /** r, g, b of each, 0…1; empty: the tree has no colors. */
+  readonly colors: Float32Array;
 }
 
 /** Leaves of the tree; a sentence if the message cannot be read. */
@@ -33,12 +35,14 @@ export function readOctomap({ binary, id, resolution, data }: Octomap): Voxels |
     count: reader.probabilities.length,
     boxes: Float32Array.from(reader.boxes),
     probabilities: Float32Array.from(reader.probabilities),
+    colors: Float32Array.from(reader.colors),
   };
 }
 
 class Reader {
   readonly boxes: number[] = [];
   readonly probabilities: number[] = [];
+  readonly colors: number[] = [];
   private offset = 0;
   private readonly view: DataView;
   private readonly size: number;
@@ -61,9 +65,13 @@ class Reader {
   private readFull(x: number, y: number, z: number, size: number, depth: number): void {
     const odds = this.view.getFloat32(this.offset, true);
     const children = this.view.getUint8(this.offset + (this.isColored ? 7 : 4));
+    const colorAt = this.offset + 4;
     this.offset += this.isColored ? 8 : 5;
-    if (children === 0) this.add(x, y, z, size, odds);
-    else if (depth === 0) throw new RangeError("a node below the leaves");
+    if (children === 0) {
+      this.add(x, y, z, size, odds);
+      if (this.isColored) for (let i = 0; i < 3; i++) this.colors.push(this.view.getUint8(colorAt + i) / 255);
+    }
+    if (children !== 0 && depth === 0) throw new RangeError("a node below the leaves");
     for (let child = 0; child < 8; child++)
       if ((children & (1 << child)) !== 0) {
         const [cx, cy, cz] = middle(x, y, z, size, child);

@@ -104,8 +104,8 @@ export class SceneDrawing extends Group {
     this.drawn.delete(key);
   }
 
-  private drawOctomap({ octomap }: SceneContents, { occupied, free, coloring }: SceneLook): string {
-    const look = `${occupied} ${free} ${coloring}`;
+  private drawOctomap({ octomap }: SceneContents, { rendering, coloring }: SceneLook): string {
+    const look = `${rendering} ${coloring}`;
     if (octomap === this.octomapOf && look === this.voxelLook) return "";
     this.octomapOf = octomap;
     this.voxelLook = look;
@@ -115,7 +115,7 @@ export class SceneDrawing extends Group {
     if (octomap === null) return "";
     const voxels = readOctomap(octomap.octomap);
     if (typeof voxels === "string") return voxels;
-    this.voxels = voxelBoxes(voxels, { occupied, free, coloring });
+    this.voxels = voxelBoxes(voxels, { rendering, coloring });
     super.add(placed(this.voxels, octomap.origin));
     return "";
   }

@@ -10,14 +10,28 @@ import type { Voxels } from "./octomap";
 const HUES = 0.8;
 const matrix = new Matrix4();
 
+export const OCCUPIED = "Occupied Voxels";
+export const FREE = "Free Voxels";
+/** Values of the property "Voxel Rendering". */
+export const RENDERINGS = [OCCUPIED, FREE, "All Voxels"];
+/** Values of the property "Voxel Coloring". */
+export const COLORINGS = ["Cell Color", "Z-Axis", "Cell Probability"];
+
 export interface VoxelLook {
-  readonly occupied: boolean;
-  readonly free: boolean;
+  /** One of `RENDERINGS`. */
+  readonly rendering: string;
+  /** One of `COLORINGS`; voxels of a tree without colors are white. */
   readonly coloring: string;
+  readonly alpha?: number;
+  /** Heights of the middles of the shown voxels [m]. */
+  readonly heights?: readonly [number, number];
 }
 
-export function voxelBoxes(voxels: Voxels, { occupied, free, coloring }: VoxelLook): Instances {
-  const { boxes, probabilities, count } = voxels;
+export function voxelBoxes(
+  voxels: Voxels,
+  { rendering, coloring, alpha = 1, heights = [-Infinity, Infinity] }: VoxelLook,
+): Instances {
+  const { boxes, probabilities, colors, count } = voxels;
   const shown: number[] = [];
   let [low, high] = [Infinity, -Infinity];
   for (let index = 0; index < count; index++) {
@@ -25,7 +39,8 @@ export function voxelBoxes(voxels: Voxels, { occupied, free, coloring }: VoxelLo
     const half = (boxes[4 * index + 3] ?? 0) / 2;
     low = Math.min(low, z - half);
     high = Math.max(high, z + half);
-    if ((probabilities[index] ?? 0) >= 0.5 ? occupied : free) shown.push(index);
+    const isShown = (probabilities[index] ?? 0) >= 0.5 ? rendering !== FREE : rendering !== OCCUPIED;
+    if (isShown && z >= heights[0] && z <= heights[1]) shown.push(index);
   }
   const instances = new Instances(BOX, {}, Math.max(1, shown.length));
   instances.begin(shown.length);
@@ -33,9 +48,13 @@ export function voxelBoxes(voxels: Voxels, { occupied, free, coloring }: VoxelLo
     const [x = 0, y = 0, z = 0, size = 0] = boxes.subarray(4 * index, 4 * index + 4);
     instances.setMatrixAt(at, matrix.makeScale(size, size, size).setPosition(x, y, z));
     const probability = probabilities[index] ?? 0;
-    const [red, green, blue] =
-      coloring === "Cell Probability" ? [1 - probability, probability, 0] : heightColor((z - low) / (high - low || 1));
-    instances.setRgbaAt(at, red, green, blue, 1);
+    const [red = 1, green = 1, blue = 1] =
+      coloring === "Cell Probability"
+        ? [1 - probability, probability, 0]
+        : coloring === "Cell Color"
+          ? colors.subarray(3 * index, 3 * index + 3)
+          : heightColor((z - low) / (high - low || 1));
+    instances.setRgbaAt(at, red, green, blue, alpha);
   });
   instances.finish();
   return instances;
