@@ -6,9 +6,11 @@ import re
 import signal
 import subprocess
 import sys
+import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -251,6 +253,54 @@ def test_slow_meshes_are_decomposed_coarsely_with_a_warning_regardless_of_the_ca
     assert not any("fewer pieces" in message for message in messages())  # and now both are cached in full
     monkeypatch.delenv("TRUNDLE_FULL_DECOMPOSITION")
     assert messages() == [in_full, coarse]
+
+
+def test_a_part_that_another_thread_decomposes_is_waited_for(
+    monkeypatch: pytest.MonkeyPatch, cut: list[ConcavePart], cache: Path
+) -> None:
+    """The simulation and the planner of one robot start together."""
+    started, may_go_on = threading.Event(), threading.Event()
+    decompose_parts = jobs.decompose_parts
+
+    def decompose_late(parts: Sequence[ConcavePart], **options: bool) -> Generator[Any]:
+        if parts:
+            started.set()
+            assert may_go_on.wait(10)
+        yield from decompose_parts(parts, **options)
+
+    monkeypatch.setattr(jobs, "decompose_parts", decompose_late)
+    found: list[int] = []
+    threads = [
+        threading.Thread(target=lambda: found.append(len(convex_pieces(*gate(), fixed=False).corners))) for _ in "ab"
+    ]
+    threads[0].start()
+    assert started.wait(10)
+    threads[1].start()
+    threads[1].join(0.2)
+    assert not found
+    may_go_on.set()
+    for thread in threads:
+        thread.join(10)
+
+    assert len(found) == 2
+    assert found[0] == found[1] > 1
+    assert len(cut) == 1
+
+
+def test_the_hull_replaces_a_concave_part_that_is_thin_beside_its_mesh() -> None:
+    """The screws of a casing: a tenth of its size across, in a hundredth of its time."""
+    big, bigger = gate(), gate(at=50.0)
+    screws = [(points * 0.05 + (0.0, y, 0.0), faces) for y in (2.0, 3.0) for points, faces in [gate()]]
+    points, faces = [], []
+    for corners, triangles in (big, *screws):
+        faces.append(triangles + sum(map(len, points)))
+        points.append(corners)
+
+    split = split_mesh(np.concatenate(points), np.concatenate(faces), fixed=False)
+    alone = split_mesh(*bigger, fixed=False)
+
+    assert [part.detail for _, part in split.concave] == [Detail.FULL, Detail.HULL, Detail.HULL]
+    assert [part.detail for _, part in alone.concave] == [Detail.FULL]
 
 
 def test_the_time_estimate_depends_on_the_size_only() -> None:

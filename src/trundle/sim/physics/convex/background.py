@@ -31,12 +31,10 @@ class BackgroundCutting:
         self._is_closed = False
         self.failed: set[str] = set()
         """Keys of the parts that could not be cut."""
-        self._store: Callable[[ConcavePart, ConvexPieces], object] | None = None
 
-    def cut(self, parts: "Sequence[ConcavePart]", store: "Callable[[ConcavePart, ConvexPieces], object]") -> None:
-        """Cut parts that are not being cut already, and store their pieces."""
+    def cut(self, parts: "Sequence[ConcavePart]") -> None:
+        """Cut parts that are not being cut already, and keep their pieces."""
         with self._lock:
-            self._store = store
             self._waiting += [part for part in parts if part.key not in self._requested]
             self._requested.update(part.key for part in parts)
             if self._waiting and not self._is_running:
@@ -48,13 +46,13 @@ class BackgroundCutting:
         self._is_closed = True
 
     def _run(self) -> None:
-        from .jobs import decompose_parts
+        from .mesh_decomposition import decompose_once
 
         count = 0
         with suppress(UsageError):  # from Ctrl-C, which ends the program
             while parts := self._next_parts():
                 self._log(f"hulls stand in for {len(parts)} hollow meshes until they are cut into convex pieces")
-                for part, pieces in decompose_parts(parts, redraws=False):
+                for part, pieces in decompose_once(parts, redraws=False):
                     if self._is_closed:
                         return
                     self._keep(part, pieces)
@@ -71,7 +69,5 @@ class BackgroundCutting:
     def _keep(self, part: "ConcavePart", pieces: "ConvexPieces | None") -> None:
         if pieces is None:
             self.failed.add(part.key)
-        elif self._store is not None:
-            self._store(part, pieces)
         with self._lock:
             self._requested.discard(part.key)

@@ -7,7 +7,7 @@ clock or the cache: results repeat to the byte on slow and fast machines.
 import hashlib
 import os
 import threading
-from collections.abc import Iterable, Mapping
+from collections.abc import Generator, Iterable, Mapping, Sequence
 from contextlib import closing
 from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from trundle.robots.meshes import RawPart, load_parts, save_parts
 
-from .jobs import SHORT_S, decompose_parts
+from . import jobs
 from .pieces import ConcavePart, ConvexPieces, Detail, HullError, hull_of_part
 from .splitting import MAX_PIECES, MAX_SLABS, MeshSplit, as_single_hull, split_mesh
 
@@ -38,6 +38,9 @@ MAX_SECONDS = 120.0
 MAX_SECONDS_A_MESH = 40.0
 _MAX_CACHED = 1024
 _cache_lock = threading.Lock()
+_claims_changed = threading.Condition()
+_claimed: set[str] = set()
+"""Keys of the parts that a thread of this process decomposes."""
 
 _splits: dict[bytes, MeshSplit] = {}
 """Mesh digest → split; least recently used first."""
@@ -84,24 +87,22 @@ class WorldDecomposition:
             _, parts = self._plan(vertices, faces, fixed=fixed)
             parts_by_key.update((part.key, part) for part in parts)
         todo = {key: part for key, part in parts_by_key.items() if not self._has(part)}
-        if self._background is not None and sum(part.seconds for part in todo.values()) > SHORT_S:
+        if self._background is not None and sum(part.seconds for part in todo.values()) > jobs.SHORT_S:
             self._stand_in(todo, self._background)
             return
-        with closing(decompose_parts(list(todo.values()))) as done:
+        with closing(decompose_once(list(todo.values()))) as done:
             for part, pieces in done:
                 if pieces is None:
                     self._failed[part.key] = hull_of_part(part)
-                    continue
-                store_pieces(part, pieces)
 
     def _stand_in(self, todo: Mapping[str, ConcavePart], background: "BackgroundCutting") -> None:
         """Use hulls until the parts are cut."""
         for key, part in todo.items():
             (self._failed if key in background.failed else self._stand_ins)[key] = hull_of_part(part)
-        background.cut([part for key, part in todo.items() if key in self._stand_ins], store_pieces)
+        background.cut([part for key, part in todo.items() if key in self._stand_ins])
 
     def _has(self, part: ConcavePart) -> bool:
-        return part.key in self._failed or part.key in self._stand_ins or self._find(part) is not None
+        return part.key in self._failed or part.key in self._stand_ins or find_pieces(part) is not None
 
     def pieces_of(self, vertices: _Points, faces: _Faces, *, fixed: bool) -> DecomposedMesh:
         """Return the convex pieces of a mesh, decomposing it if needed."""
@@ -110,7 +111,7 @@ class WorldDecomposition:
         for (lowest, _), part in zip(whole.concave, parts, strict=True):
             if not self._has(part):
                 self.decompose_all([(vertices, faces, fixed)])
-            cut = self._stand_ins.get(part.key) or self._find(part) or self._failed[part.key]
+            cut = self._stand_ins.get(part.key) or find_pieces(part) or self._failed[part.key]
             pieces.corners.extend(corners + lowest for corners in cut.corners)
             pieces.errors.extend(cut.errors)
         is_coarse = any(part.detail is Detail.COARSE for part in parts)
@@ -145,13 +146,47 @@ class WorldDecomposition:
             chosen.append(self._chosen[key])
         return chosen
 
-    def _find(self, part: ConcavePart) -> ConvexPieces | None:
-        pieces = _pieces.get(part.key)
-        if pieces is None and part.detail is not Detail.HULL:
-            pieces = load_pieces(part.key)
-        if pieces is not None:
-            _cache(_pieces, part.key, pieces)
-        return pieces
+
+def decompose_once(
+    parts: Sequence[ConcavePart], *, redraws: bool = True
+) -> Generator[tuple[ConcavePart, ConvexPieces | None]]:
+    """Decompose parts as `decompose_parts` does, and keep their pieces; those that another thread decomposes are waited
+    for: the simulation and the planner of one robot start together.
+
+    Args:
+        parts: parts to decompose.
+        redraws: True: redraw a line of progress on a terminal; False: print lines.
+    """
+    with _claims_changed:
+        own = [part for part in parts if part.detail is Detail.HULL or part.key not in _claimed]
+        keys = {part.key for part in own if part.detail is not Detail.HULL}
+        _claimed.update(keys)
+    try:
+        with closing(jobs.decompose_parts(own, redraws=redraws)) as done:
+            for part, pieces in done:
+                if pieces is not None:
+                    store_pieces(part, pieces)
+                yield part, pieces
+    finally:
+        with _claims_changed:
+            _claimed.difference_update(keys)
+            _claims_changed.notify_all()
+    own_parts = {id(part) for part in own}
+    for part in parts:
+        if id(part) not in own_parts:
+            with _claims_changed:
+                _claims_changed.wait_for(lambda key=part.key: key not in _claimed)
+            yield part, find_pieces(part)
+
+
+def find_pieces(part: ConcavePart) -> ConvexPieces | None:
+    """Return the pieces kept for a part, in memory or on disk."""
+    pieces = _pieces.get(part.key)
+    if pieces is None and part.detail is not Detail.HULL:
+        pieces = load_pieces(part.key)
+    if pieces is not None:
+        _cache(_pieces, part.key, pieces)
+    return pieces
 
 
 def store_pieces(part: ConcavePart, pieces: ConvexPieces) -> None:

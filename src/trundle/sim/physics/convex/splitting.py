@@ -28,6 +28,10 @@ _CLOSE = 0.02
 """Distance of the hull [m] up to which it replaces a fixed mesh of over 1000 slabs."""
 _MAX_CUT = 8
 """Maximum number of parts of a mesh that are decomposed, largest first."""
+_SMALL = 0.1
+"""Thickness of a part, relative to the mesh's size, up to which its hull replaces it: screws of a casing, for example.
+Its cross-sections lie within the thickness, and the part is in each of them, so no point of the hull is farther away.
+"""
 
 
 class MeshSplit(Struct, frozen=True):
@@ -81,7 +85,11 @@ def split_mesh(vertices: _Points, faces: _Faces, *, fixed: bool) -> MeshSplit:
     if len(corners) > MAX_PIECES and _hull_is_close(points, faces):
         return as_single_hull(points, faces)
     concave.sort(key=lambda component: -float(np.prod(np.ptp(points[np.unique(component)], axis=0))))
-    details = [Detail.FULL if i < _MAX_CUT else Detail.HULL for i in range(len(concave))]
+    small = _SMALL * float(np.ptp(points[np.unique(faces)], axis=0).max())
+    details = [
+        Detail.FULL if i < _MAX_CUT and _thickness(points, component) > small else Detail.HULL
+        for i, component in enumerate(concave)
+    ]
     parts = [_concave_part(points, component, detail) for component, detail in zip(concave, details, strict=True)]
     return MeshSplit(corners, parts, simplified_by)
 
@@ -90,6 +98,11 @@ def as_single_hull(vertices: _Points, faces: _Faces) -> MeshSplit:
     """Return a mesh as a single part, replaced by its hull."""
     points, faces = _welded(vertices, faces)
     return MeshSplit([], [_concave_part(points, faces, Detail.HULL)])
+
+
+def _thickness(points: _Points, faces: _Faces) -> float:
+    """Return the diagonal of a part's box across its longest side [m]."""
+    return float(np.linalg.norm(np.sort(np.ptp(points[np.unique(faces)], axis=0))[:2]))
 
 
 def _hull_is_close(points: _Points, faces: _Faces) -> bool:
