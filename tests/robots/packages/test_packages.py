@@ -221,6 +221,24 @@ def test_an_unresolved_uri_is_one_error_with_a_remedy(tmp_path: Path, uri: str, 
     assert str(caught.value).count(uri.removeprefix("file://")) == 1
 
 
+@pytest.mark.parametrize("uri", ["file:///home/author/ws/src/repo/arm/{}", "/home/author/.gazebo/models/arm/{}"])
+def test_a_path_of_the_authors_machine_is_found_in_the_package_or_model(tmp_path: Path, uri: str) -> None:
+    """Worlds that Gazebo saved have absolute paths."""
+    package(tmp_path / "ws/repo/arm")
+    packages = Packages({"ROS_PACKAGE_PATH": str(tmp_path / "ws")}, start=tmp_path / "else/room.world")
+    report = Diagnostics()
+
+    found = packages.resolve(uri.format("meshes/arm.stl"), folder=tmp_path, at=AT)
+    packages.warn_of_finds(report, Source("room.world"))
+    packages.warn_of_finds(report, Source("room.world"))
+
+    assert found == tmp_path / "ws/repo/arm/meshes/arm.stl"
+    named = uri.format("meshes/arm.stl").removeprefix("file://")
+    assert report.warnings == [f"robot.urdf:7: warning: no such file {named}; {found} is used"]
+    with pytest.raises(DescriptionError, match="no such file"):
+        packages.resolve(uri.format("../secret.stl"), folder=tmp_path, at=AT)
+
+
 def test_spaces_may_be_percent_encoded(tmp_path: Path) -> None:
     mesh = write(tmp_path / "left arm.stl")
 
@@ -372,7 +390,7 @@ def test_a_workspace_behind_a_link_is_spelled_as_on_the_path(tmp_path: Path) -> 
     report = Diagnostics()
 
     assert packages.find_package("arm") == spelled
-    packages.warn_shadowed(report, Source("go.launch"))
+    packages.warn_of_finds(report, Source("go.launch"))
     assert report.warnings == []
 
 

@@ -80,7 +80,7 @@ def check_launch(
         texts=texts,
         check_readable=packages.check_readable,
     )
-    packages.warn_shadowed(report, Source(file))
+    packages.warn_of_finds(report, Source(file))
     report_missing_nodes(plan.nodes, packages, environment, report)
     return LaunchFindings(plan)
 

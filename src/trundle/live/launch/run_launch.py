@@ -121,7 +121,7 @@ def _read(
         env=env,
         namespace="/" + (request.namespace or env.get("ROS_NAMESPACE", "")).strip("/"),
     )
-    packages.warn_shadowed(report, Source(str(start)))
+    packages.warn_of_finds(report, Source(str(start)))
     for path in packages.configured_files:
         show.note(f"wrote {path} from its template, as catkin_make does")
     show.findings()

@@ -56,7 +56,7 @@ def load(
         UsageError: no such model.
     """
     loaded = _load(_find(source, packages), report, packages=packages, seed=seed, arguments=arguments)
-    packages.warn_shadowed(report, Source(source))
+    packages.warn_of_finds(report, Source(source))
     return loaded
 
 

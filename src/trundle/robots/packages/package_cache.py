@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TypeAlias
 
+from trundle.base.diagnostics import Source
+
 from .confinement import WideFolders
 
 Folder: TypeAlias = tuple[Path, str | None]
@@ -25,6 +27,8 @@ class PackageCache:
         """Folders added to the model path."""
         self.shadowed: dict[str, str] = {}
         """Package → warning of another package of the same name; empty if there is none, or it has been reported."""
+        self.moved: dict[str, tuple[Source, str]] = {}
+        """Missing file → its first URI's position, and the warning of the file in its place; empty once reported."""
         self.configured: dict[Path, list[Path]] = {}
         """Package folder → files written in place of CMake's `configure_file`."""
         self.exports: dict[Path, list[dict[str, str]]] = {}

@@ -106,8 +106,14 @@ class Packages:
         """Return the workspace of `start` if it contains a package; None if ROS_PACKAGE_PATH does."""
         return self._ros.workspace_of(package)
 
-    def warn_shadowed(self, report: Diagnostics, at: Source) -> None:
-        """Warn once of packages on ROS_PACKAGE_PATH that a file's own workspace shadows."""
+    def warn_of_finds(self, report: Diagnostics, at: Source) -> None:
+        """Warn once of packages on ROS_PACKAGE_PATH that a file's own workspace shadows, and of files found elsewhere
+        than their URIs say.
+        """
+        for path, (source, message) in self._cache.moved.items():
+            if message:
+                self._cache.moved[path] = source, ""
+                report.warn(source, message, "missing-file")
         for name, message in self._cache.shadowed.items():
             if message:
                 self._cache.shadowed[name] = ""
@@ -229,12 +235,30 @@ class Packages:
         if not os.path.exists(path) and is_stand_in(path) and os.path.exists(path.with_suffix(".obj")):
             path = path.with_suffix(".obj")
         label = "" if root is None else f"{_shown(uri)}: "  # the message already has the path
+        if not os.path.exists(path) and (moved := self._of_another_machine(path)) is not None:
+            self._cache.moved.setdefault(str(path), (at, f"no such file {_shown(str(path))}; {moved} is used"))
+            return moved
         if not os.path.exists(path):
             raise DescriptionError(at, f"{label}no such file {_shown(str(path))}", "missing-file")
         if is_stream(path):
             raise DescriptionError(at, f"{label}{path} is a pipe, a device or a socket, not a file", "unreadable-file")
         self.check_readable(path, at, name=uri, root=root)
         return path
+
+    def _of_another_machine(self, path: Path) -> Path | None:
+        """Return the file of a package or model that an absolute path of its author's machine means.
+
+        Worlds saved by Gazebo have such paths: /home/me/catkin_ws/src/arm/worlds/bowl.dae.
+        """
+        if not path.is_absolute() or path.is_relative_to(ASSETS):
+            return None
+        for i in range(len(path.parts) - 2, 0, -1):
+            name = path.parts[i]
+            for folder in (self._ros.find(name), self._gazebo.find_model(name)):
+                found = None if folder is None else folder.joinpath(*path.parts[i + 1 :])
+                if folder is not None and found is not None and os.path.isfile(found):
+                    return found if Confinement([folder], wide=self._cache.wide).allows(found) else None
+        return None
 
     def check_readable(self, path: Path, at: Source, *, name: str, root: Path | None = None) -> None:
         """Refuse a file that is neither below `root` nor in the readable folders.
