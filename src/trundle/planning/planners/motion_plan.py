@@ -104,15 +104,14 @@ def _failure(request: MotionPlanRequest, result: _planning.QueryResult, seconds:
     group = f"group {request.group!r}"
     if request.cancel.is_cancelled:
         return PlanningFailure(ErrorCode.PREEMPTED, f"planning for {group} was ended")
-    if result.goals == 0 and result.attempts:
-        tries = f"of {result.attempts} states sampled for the goal"
+    if result.goals == 0 and result.attempts:  # OMPL's planners fail for want of a goal, whatever the reason
+        why = "none satisfied it"
         if result.in_collision:
-            return PlanningFailure(
-                ErrorCode.GOAL_IN_COLLISION,
-                f"{group} reaches no goal: {tries}, {result.in_collision} were in collision and "
-                f"{result.unreachable} did not satisfy it",
-            )
-        return PlanningFailure(ErrorCode.NO_IK_SOLUTION, f"{group} reaches no goal: {tries}, none satisfied it")
+            why = f"{result.in_collision} were in collision and {result.unreachable} did not satisfy it"
+        return PlanningFailure(
+            ErrorCode.PLANNING_FAILED,
+            f"{group} reaches no goal: of {result.attempts} states sampled for the goal, {why}",
+        )
     if result.seconds_left <= 0.0:
         return PlanningFailure(
             ErrorCode.TIMED_OUT, f"no path for {group} within {seconds:g} s, after {result.checks} states were checked"
