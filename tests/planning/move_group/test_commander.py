@@ -247,3 +247,13 @@ for command in ("id", "use leg", "use arm", "which", "a = [0.1 0 0 0 0.7 0]", "a
     assert answers[11:13] == ["3 Planned to home", "3 Plan submitted for execution"]
     assert answers[14] == "4 tool0"
     assert answers[15] == "2 Unknown command: 'fly'"
+
+
+def test_modules_of_python_and_tf_come_with_moveit_commander(graph: Any, tmp_path: Path) -> None:
+    """Programs of ROS by Example end with `moveit_commander.os._exit(0)`."""
+    ends = "moveit_commander.os.write(1, b'moved'); moveit_commander.os._exit(0); print('never')"
+    asks = "assert moveit_commander.tf.transformations and moveit_commander.time.time()"
+
+    printed = _run(graph, tmp_path, f"{asks}\n{ends}", begin="import moveit_commander\n")
+
+    assert printed == "moved"

@@ -1,7 +1,13 @@
 """MoveIt's commands for Python programs: groups, the robot, the planning scene.
 
-Programs also take message classes and rospy from here: the original's modules are all imported with a star.
+Programs also take message classes, rospy and Python's modules from here, as in `moveit_commander.os._exit(0)`: the
+original's modules are all imported with a star.
 """
+
+import os
+import re
+import time
+from types import ModuleType
 
 from geometry_msgs.msg import Point, Pose, PoseStamped
 from moveit_msgs.msg import (
@@ -68,7 +74,19 @@ __all__ = [
     "SolidPrimitive",
     "TrajectoryConstraints",
     "conversions",
+    "os",
+    "re",
     "roscpp_initialize",
     "roscpp_shutdown",
     "rospy",
+    "time",
 ]
+
+
+def __getattr__(name: str) -> ModuleType:
+    """Import tf when a program asks for it: most do not."""
+    if name == "tf":
+        import tf
+
+        return tf
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
