@@ -57,7 +57,19 @@ def test_end_effectors_are_attached_to_the_group_that_moves_them() -> None:
     assert model.end_effectors["gripper"].parent_group == "arm"
     assert model.group("gripper").end_effector == model.end_effectors["gripper"]
     assert model.group("arm").attached_end_effectors == ("gripper",)
+    assert model.group("arm_with_gripper").attached_end_effectors == ("gripper",)  # it has the parent link, too
     assert arm("four_axis").end_effectors["jaw"].parent_group == "arm"  # not named in the file
+
+
+def test_an_end_effector_may_share_its_parent_link_with_the_arm() -> None:
+    """As in the SRDF of Pi Robot, whose arm's chain ends at a link of the gripper."""
+    shared = '<group name="hand"><link name="tool0"/><link name="left_finger"/></group>'
+    shared += '<end_effector name="fingers" parent_link="tool0" group="hand"/>'
+
+    model = changed_arm("six_axis", srdf=shared)
+
+    assert model.end_effectors["fingers"].parent_group == "arm"
+    assert "fingers" in model.group("arm").attached_end_effectors
 
 
 def test_variables_are_ordered_depth_first_and_by_name() -> None:

@@ -117,22 +117,22 @@ class GroupBuilder:
         return found
 
     def _parent_group(self, written: SrdfEndEffector, members: Mapping[str, list[JointModel]]) -> str:
-        """Return the group that moves an end effector; none named: as in MoveIt, the smallest with the parent link."""
-        own = {joint.name for joint in members[written.group]}
-        fitting = {
-            name: len(joints)
-            for name, joints in members.items()
-            if name != written.group
-            and any(joint.child_link == written.parent_link for joint in joints)
-            and not any(joint.name in own for joint in joints)
-        }
-        if not written.parent_group:
-            return min(fitting, key=lambda name: fitting[name], default="")
-        if written.parent_group in members:
+        """Return the group that moves an end effector: the one named, else the smallest with the parent link, as in
+        MoveIt, even if the two share links.
+        """
+        fitting = [
+            name for name, joints in members.items() if name != written.group and _holds(joints, written.parent_link)
+        ]
+        if written.parent_group in fitting:
             return written.parent_group
-        fault = no_such("no parent_group", written.parent_group, members)
-        self._report.warn(written.at, f"end_effector {written.name!r}: {fault}; it has none", "missing-link")
-        return ""
+        smallest = min(fitting, key=lambda name: (len(members[name]), name), default="")
+        if written.parent_group:
+            fault = f"parent_group {written.parent_group!r} is not one with the link {written.parent_link!r}"
+            if written.parent_group not in members:
+                fault = no_such("no parent_group", written.parent_group, members)
+            instead = f"{smallest!r} is taken" if smallest else "it has none"
+            self._report.warn(written.at, f"end_effector {written.name!r}: {fault}; {instead}", "missing-link")
+        return smallest
 
     def _group(
         self,
@@ -157,7 +157,9 @@ class GroupBuilder:
             is_chain=self._is_chain(joints),
             default_states={},
             end_effector=next((eef for eef in end_effectors.values() if eef.group == name), None),
-            attached_end_effectors=tuple(eef.name for eef in end_effectors.values() if eef.parent_group == name),
+            attached_end_effectors=tuple(
+                eef.name for eef in end_effectors.values() if eef.group != name and _holds(joints, eef.parent_link)
+            ),
             subgroups=tuple(other for other in members if other in is_part),
         )
 
@@ -229,6 +231,11 @@ class GroupBuilder:
         if state.name in group.default_states:
             self._report.warn(state.at, f"a second {where} of {group.name!r}; it is used", "duplicate-name")
         group.default_states[state.name] = positions
+
+
+def _holds(joints: Sequence[JointModel], link: str) -> bool:
+    """True if a group of joints has a link."""
+    return any(joint.child_link == link for joint in joints)
 
 
 def _names(joints: Iterable[JointModel]) -> set[str]:
