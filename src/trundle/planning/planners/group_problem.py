@@ -90,8 +90,13 @@ class GroupProblem:
         states[..., self.indices] = values
         return self.model.with_mimics(states)
 
-    def goal(self, constraints: Constraints) -> _planning.Goal:
+    def goal(self, constraints: Constraints, notes: list[str] | None = None) -> _planning.Goal:
         """Return a goal of constraints.
+
+        Args:
+            constraints: constraints of the goal.
+            notes: receives what was changed: a joint's goal beyond its limits is its limit, as in MoveIt's constraints;
+                None: such a goal is refused, as by pilz' planners.
 
         Raises:
             RequestError: constraints that cannot be.
@@ -116,10 +121,11 @@ class GroupProblem:
             if not self.dimensions[index, 2]:
                 lower, upper = self.dimensions[index, :2]
                 if high < lower or low > upper:
-                    raise RequestError(
-                        ErrorCode.GOAL_CONSTRAINTS_VIOLATED,
-                        f"{joint.variable!r}: the goal {joint.position:g} is beyond the limits {lower:g} … {upper:g}",
-                    )
+                    fault = f"the goal {joint.position:g} is beyond the limits {lower:g} … {upper:g}"
+                    if notes is None:
+                        raise RequestError(ErrorCode.GOAL_CONSTRAINTS_VIOLATED, f"{joint.variable!r}: {fault}")
+                    low = high = lower if high < lower else upper
+                    notes.append(f"{joint.variable!r}: {fault}; the path ends at {low:g}")
                 low, high = max(low, lower), min(high, upper)
             rows.append((index, low, min(max(joint.position, low), high), high))
         poses, visibilities = self._constraints(constraints)

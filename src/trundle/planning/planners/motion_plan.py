@@ -49,10 +49,11 @@ def _plan(scene: PlanningScene, request: MotionPlanRequest) -> MotionPlan | Plan
         settings=request.settings,
         workspace=request.workspace,
     )
-    goals = [problem.goal(goal) for goal in request.goals]
+    notes_of_goals: list[str] = []
+    goals = [problem.goal(goal, notes_of_goals) for goal in request.goals]
     start, moved = valid_start(problem, request)
     algorithm, note = find_algorithm(request.planner)
-    notes = [*notes_of_bounds, *moved, *([note] if note else [])]
+    notes = [*notes_of_bounds, *notes_of_goals, *moved, *([note] if note else [])]
     results: list[_planning.QueryResult] = []
     seconds = min(max(request.allowed_time, 0.0), _MAX_SECONDS)
     for attempt in range(min(max(request.attempts, 1), _MAX_ATTEMPTS)):
