@@ -1,7 +1,9 @@
 #include "laser_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "planar_fit.h"
 
@@ -21,11 +23,14 @@ LaserModel::LaserModel(const LaserOptions& options, std::shared_ptr<const Occupa
 namespace {
 
 constexpr std::size_t kAskedParticles = 32;
-constexpr double kKnownShare = 0.7;
+// Share of the particles that have to know a beam; those that do not weigh less, though they may be ahead of the map.
+// Of close ones nearly all, or scan after scan would draw them back; of others some never know it, but the scan is
+// needed.
+constexpr double kKnownShare = 0.7, kKnownShareOfClose = 0.95;
 constexpr double kStepCells = 0.5;
 constexpr double kNearCells = 2.0;  // a wall may be thicker than mapped
 constexpr int kAlignments = 5;
-constexpr double kReach = 0.1;  // deviation of a beam's end from what the map shows [m]
+constexpr double kReach = 0.1;  // deviation of a beam's end from what the map shows, and of the pose [m]
 
 std::size_t beam_step(const LaserScan& scan, int max_beams) {
   if (scan.ranges.empty() || max_beams < 2) return std::max<std::size_t>(1, scan.ranges.size());
@@ -74,7 +79,7 @@ std::optional<double> LaserModel::weigh(std::vector<Particle>& particles, const 
   Beams beams = used_beams(scan);
   const std::size_t count = beams.x.size();
   if (agreement.is_together) {
-    keep_known(particles, scan, beams);
+    keep_known(particles, scan, agreement.is_close ? kKnownShareOfClose : kKnownShare, beams);
     if (beams.x.empty() && count > 0) return std::nullopt;
   }
   const bool may_skip =
@@ -84,13 +89,14 @@ std::optional<double> LaserModel::weigh(std::vector<Particle>& particles, const 
                         may_skip ? agreed_beams(particles, beams) : std::vector<char>(beams.x.size(), 1));
 }
 
-// Leaves out the beams of which, from some of the particles, the map tells nothing.
-void LaserModel::keep_known(const std::vector<Particle>& particles, const LaserScan& scan, Beams& beams) const {
+// Leaves out the beams of which, from less than a share of the particles, the map tells something.
+void LaserModel::keep_known(const std::vector<Particle>& particles, const LaserScan& scan, double share,
+                            Beams& beams) const {
   const std::size_t step = std::max<std::size_t>(1, particles.size() / kAskedParticles);
   std::vector<PlanarPose> lasers;
   for (std::size_t i = step / 2; i < particles.size(); i += step)
     lasers.push_back(compose(particles[i].pose, {scan.x, scan.y, 0.0}));
-  const double needed = kKnownShare * static_cast<double>(lasers.size());
+  const double needed = share * static_cast<double>(lasers.size());
   Beams known;
   for (std::size_t i = 0; i < beams.x.size(); ++i) {
     const std::size_t number = beams.numbers[i];
@@ -143,10 +149,16 @@ bool LaserModel::is_known(const PlanarPose& laser, double range, double bearing)
 PlanarPose LaserModel::align(const PlanarPose& prior, const LaserScan& scan) const {
   const PlanarPose laser = compose(prior, {scan.x, scan.y, 0.0});
   if (distances_.empty() || !std::isfinite(laser.x + laser.y)) return prior;
+  // Beams at the end of a wall's known piece would pull the pose back onto it: they are not known all around the prior.
+  constexpr std::array<std::pair<double, double>, 5> around{
+      {{0, 0}, {kReach, 0}, {-kReach, 0}, {0, kReach}, {0, -kReach}}};
   std::vector<Point> ends;
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
     const double range = scan.ranges[i], bearing = scan.bearings[i];
-    if (range < scan.range_max && is_known(laser, range, bearing))
+    const auto is_known_from = [&](const std::pair<double, double>& offset) {
+      return is_known({laser.x + offset.first, laser.y + offset.second, laser.yaw}, range, bearing);
+    };
+    if (range < scan.range_max && std::all_of(around.begin(), around.end(), is_known_from))
       ends.push_back({scan.x + range * std::cos(bearing), scan.y + range * std::sin(bearing)});
   }
   PlanarPose pose = prior;

@@ -34,6 +34,7 @@ struct LaserScan {
 struct Agreement {
   bool has_converged = false;  // all are close together: beams that most of them do not explain may be skipped
   bool is_together = false;    // most are in one place
+  bool is_close = false;       // most are within a step or two
 };
 
 class LaserModel {
@@ -65,7 +66,7 @@ class LaserModel {
   void weigh_by_rays(std::vector<Particle>& particles, const LaserScan& scan) const;
   double weigh_by_table(std::vector<Particle>& particles, const Beams& beams, double share,
                         const std::vector<char>& is_used) const;
-  void keep_known(const std::vector<Particle>& particles, const LaserScan& scan, Beams& beams) const;
+  void keep_known(const std::vector<Particle>& particles, const LaserScan& scan, double share, Beams& beams) const;
   PlanarPose align_once(const PlanarPose& pose, const PlanarPose& prior, const std::vector<Point>& ends) const;
   bool is_known(const PlanarPose& laser, double range, double bearing) const;
   std::vector<char> agreed_beams(const std::vector<Particle>& particles, const Beams& beams) const;

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kConvergedDistance = 0.5;  // [m]; amcl's
 constexpr double kTogetherDistance = 1.5;   // [m]
+constexpr double kCloseDistance = 0.2;      // [m]
 // A set of max_particles would miss the pose in a large map: this many more are drawn, and the first scan reduces them.
 constexpr int kCandidatesPerParticle = 10, kMaxCandidates = 200'000;
 constexpr double kScanExponent = 6.0;
@@ -151,7 +152,8 @@ void ParticleFilter::weigh(LaserModel& model, const LaserScan& scan) {
   for (const auto& particle : particles_) before.push_back(particle.weight);
   if (particles_.empty()) return;
   const bool has_agreed_before = has_agreed(kConvergedDistance);
-  const auto log_scale = model.weigh(particles_, scan, {has_converged(), has_agreed(kTogetherDistance)});
+  const Agreement agreement{has_converged(), has_agreed(kTogetherDistance), has_agreed(kCloseDistance)};
+  const auto log_scale = model.weigh(particles_, scan, agreement);
   if (!log_scale) return;
   double total = 0.0;
   for (const auto& particle : particles_) total += particle.weight;

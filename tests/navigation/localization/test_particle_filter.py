@@ -292,6 +292,30 @@ def test_a_robot_that_leaves_the_known_part_of_a_map_is_not_held_back(kind: int,
     assert max(errors) < 0.2
 
 
+def test_a_robot_that_turns_beyond_the_known_part_of_a_hall_is_not_drawn_back() -> None:
+    """15 rad on the spot, 1 m beyond the end of the walls that the map has; scans see those and more."""
+    reach_m, at = 6.0, (6.0, 2.0)
+    cells = np.zeros((80, 240), dtype=np.int8)
+    cells[[0, -1], :] = 100
+    hall = OccupancyMap(cells, resolution=RESOLUTION, x=0.0, y=0.0)
+    known = cells.copy()
+    known[[0, -1], 100:] = -1
+    part = OccupancyMap(known, resolution=RESOLUTION, x=0.0, y=0.0)
+    model = LaserModel(LaserOptions(), part)
+    particles = ParticleFilter(options(), part, seed=1)
+    particles.spread((*at, 0.0), (1e-3, 0.0, 0.0, 0.0, 1e-3, 0.0, 0.0, 0.0, 1e-3))
+    for i in range(60):
+        particles.move(OdometryModel(DIFF, (0.2, 0.2, 0.2, 0.2, 0.1)), (*at, 0.25 * i), (*at, 0.25 * (i + 1)))
+        ranges = np.minimum(ranges_at(hall, (*at, 0.25 * (i + 1))), reach_m)
+        particles.weigh(model, ranges, bearings(), range_max=reach_m, x=0.0, y=0.0)
+        mean, _ = particles.estimate()
+        particles.resample()
+    aligned = model.align(mean, ranges, bearings(), range_max=reach_m, x=0.0, y=0.0)
+
+    assert mean[0] - at[0] == pytest.approx(0.0, abs=0.09)
+    assert aligned[0] == pytest.approx(mean[0], abs=0.02)
+
+
 def test_same_seeds_draw_the_same_particles() -> None:
     def run() -> bytes:
         particles = ParticleFilter(options(), house_map(), seed=7)
