@@ -67,3 +67,17 @@ def test_a_car_never_turns_tighter_than_its_radius(direction: float) -> None:
     assert velocity is not None
     assert velocity[0] > 0.0
     assert 0.0 < velocity[2] * math.copysign(1.0, direction) <= velocity[0] / 0.6 + 1e-9
+
+
+@pytest.mark.parametrize(("names", "drives"), [(("max_trans_vel", "max_rot_vel"), True), ((), False)])
+def test_with_names_before_melodic_occdist_scale_has_its_weight_of_that_time(
+    names: tuple[str, ...], drives: bool
+) -> None:
+    """TurtleBot 2's weights, on a way where the costs rise by 20 each cell."""
+    weights = {"path_distance_bias": 64.0, "goal_distance_bias": 24.0, "occdist_scale": 0.5}
+    planner = _planner(**weights, **dict.fromkeys(names, 0.5))
+    planner.costmap.costmap.cells[:] = np.clip(20 * (np.arange(120) - 60), 0, 200).astype(np.uint8)
+
+    velocity = planner.best(Pose2D(0.0, 0.0, 0.0), _way(0.0)[:9])
+
+    assert (velocity is not None and velocity[0] > 0.05) == drives

@@ -80,9 +80,10 @@ class DWAPlannerROS(Follower):
     """Samples reachable velocities, simulates each, and commands the one of the best score.
 
     Parameters are the original's (`DwaSettings`), their names before Melodic, `controller_frequency`,
-    `sum_scores` and `cheat_factor`, and `min_turning_radius` [m] for a car, whose direction at the goal is free. Unlike
-    in the original, trajectories accelerate toward any velocity, and a robot turns on the spot before it follows a
-    path that begins beside or behind it.
+    `sum_scores` and `cheat_factor`, and `min_turning_radius` [m] for a car, whose direction at the goal is free. With
+    one of the old names occdist_scale has its weight of that time, 2 · resolution of today's. Unlike in the original,
+    trajectories accelerate toward any velocity, and a robot turns on the spot before it follows a path that begins
+    beside or behind it.
     """
 
     def __init__(
@@ -95,6 +96,7 @@ class DWAPlannerROS(Follower):
         buffer: TransformBuffer,
         odom: OdometryReader,
     ) -> None:
+        self._is_old = any(old in section and new not in section for old, new in _OLD_NAMES.items())
         section = section.renamed(_OLD_NAMES)
         self._settings = settings = read_settings(DwaSettings, section)
         self._turning_radius_m = section.number("min_turning_radius", 0.0, minimum=0.0)
@@ -182,11 +184,13 @@ class DWAPlannerROS(Follower):
         settings = self._settings
         resolution = self.costmap.costmap.resolution_m
         path_scale, goal_scale = resolution * settings.path_distance_bias, resolution * settings.goal_distance_bias
+        # Before Melodic, which renamed parameters, too, it was resolution · occdist_scale and half of the others.
+        obstacle_scale = settings.occdist_scale * (2.0 * resolution if self._is_old else 1.0)
         obstacles, path, goal, front, alignment, steps = terms.T
         is_valid = (obstacles >= 0.0) & (steps > 0.0)
         for distance in (path, goal):
             is_valid &= distance < _grids.UNREACHED
-        scores = settings.occdist_scale * obstacles + path_scale * path + goal_scale * goal
+        scores = obstacle_scale * obstacles + path_scale * path + goal_scale * goal
         ahead = front < _grids.UNREACHED
         scores += goal_scale * np.where(ahead, front, 2.0 * len(self.costmap.costmap.cells))
         if not is_near_end:
