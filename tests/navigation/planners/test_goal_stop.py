@@ -44,6 +44,15 @@ def test_a_robot_that_turns_at_the_goal_stays_there_while_its_localization_jitte
     assert there == [False, True, True, True, at_last, at_last]
 
 
+def test_a_robot_that_turns_about_a_point_before_its_origin_is_at_the_goal_meanwhile() -> None:
+    """It brakes while it begins to turn, and its origin moves sideways from then on."""
+    goal_stop = stop()
+    for beside, velocity in ((0.09, (0.2, 0.0, 0.0)), (0.09, (0.0, 0.05, -1.0)), (0.12, (0.0, 0.05, -1.0))):
+        pose = Pose2D(1.0 - beside, 0.0, 2.0)
+        assert goal_stop.has_arrived(pose, GOAL, velocity)
+        assert command(goal_stop, pose, velocity)[2] < 0.0
+
+
 def test_a_robot_that_rolls_out_of_the_tolerance_has_not_reached_the_goal() -> None:
     goal_stop = stop()
 

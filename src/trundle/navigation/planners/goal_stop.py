@@ -27,6 +27,8 @@ _LEAVING = 1.5
 
 _NEARER_M = 1e-3
 """Distance by which a robot comes nearer to the goal with each command until it has arrived [m]."""
+_PIVOT_M = 0.3
+"""Distance up to which a turn's center may be before or behind the origin, which then moves sideways [m]."""
 _REST_S = 1.0
 """Least time for what is left of a turn, once a turn has passed its end [s]; the original's of every turn."""
 
@@ -121,7 +123,8 @@ class GoalStop:
         if abs(angle) <= limits.yaw_goal_tolerance:
             return 0.0, 0.0, 0.0
         x, y, turn = velocity
-        self._has_turned = self._has_turned or math.hypot(x, y) <= self._stopped_speed
+        is_braked = abs(x) <= self._stopped_speed and abs(y) <= self._stopped_speed + _PIVOT_M * abs(turn)
+        self._has_turned = self._has_turned or is_braked
         self._swings = self._swings or (angle * self._angle < 0.0 and abs(angle) < math.pi / 2.0)
         self._angle = angle
         speed = turning_speed(
