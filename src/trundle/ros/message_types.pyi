@@ -510,6 +510,9 @@ class sensor_msgs:
         width: int
         do_rectify: bool
 
+    class SetCameraInfoRequest(TypedMessage, Protocol):
+        camera_info: sensor_msgs.CameraInfo
+
 class std_msgs:
     class Bool(TypedMessage, Protocol):
         data: bool

@@ -112,6 +112,23 @@ def test_a_camera_has_the_topics_frame_and_calibration_of_its_plugin(gazebo: Gaz
     assert list(info.D) == pytest.approx([0.01, 0, 0, 0, 0])
 
 
+@pytest.mark.parametrize(("kind", "plugin"), [("camera", "camera"), ("depth", "openni_kinect")])
+def test_set_camera_info_changes_what_a_camera_says_of_itself(gazebo: Gazebo, kind: str, plugin: str) -> None:
+    """As camera_info_manager's in the originals; camera_calibration calls it at COMMIT."""
+    parameters = "<cameraName>front</cameraName><frameName>camera_link</frameName>"
+    parameters += "<cameraInfoTopicName>camera_info</cameraInfoTopicName>"
+    _spawn_sensors(gazebo, _sensor(kind, _CAMERA, plugin, parameters))
+    matrix = [20.0, 0.0, 15.0, 0.0, 21.0, 11.0, 0.0, 0.0, 1.0]
+    info = {"width": 32, "height": 24, "distortion_model": "plumb_bob", "D": [0.1, 0, 0, 0, 0], "K": matrix}
+    client = gazebo.client.call_service
+    answer = gazebo.loop.run(client("/front/set_camera_info", "sensor_msgs/SetCameraInfo", {"camera_info": info}))
+
+    message = _first_message(gazebo, "/front/camera_info", "sensor_msgs/CameraInfo")
+    assert answer.success
+    assert (list(message.K), list(message.D)) == (matrix, [0.1, 0, 0, 0, 0])
+    assert message.header.frame_id == "camera_link"
+
+
 @pytest.mark.parametrize(
     ("pixels", "format_", "channels"),
     [

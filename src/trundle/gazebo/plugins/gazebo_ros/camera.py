@@ -1,7 +1,7 @@
 """libgazebo_ros_camera.so: images and camera_info of a camera."""
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from trundle.robots.parameters import TagParameters
 from trundle.ros import Option, Options, ReconfigureServer
@@ -11,6 +11,9 @@ from trundle.sim.sensors import CameraReading, CameraSensor
 from .image_publisher import ImagePublisher
 from .plugin_names import PluginNames
 from .sensor_publisher import SensorPublisher
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import sensor_msgs
 
 _MAX_RATE_HZ = 1000.0
 _SIDES = ["left", "right"]
@@ -23,7 +26,7 @@ def attach(sensor: CameraSensor, parameters: TagParameters, names: PluginNames) 
     camera_info, <frameName> /world, <updateRate> 0 (the sensor's), and for camera_info alone <Cx>, <Cy>,
     <focalLength> 0 (the image's), <hackBaseline> 0, <distortionK1> to <distortionT2>. Without <borderCrop> (true) a
     distorted image is not enlarged. A multicamera's <hackBaseline> is the distance of the right camera from the left
-    one, by default that of the file.
+    one, by default that of the file. The service set_camera_info of the camera changes camera_info for this run.
     """
     pixels = sensor.optics.format
     attach_images(sensor, parameters, names, image_encoder(pixels), is_compressible=is_compressible(pixels))
@@ -44,12 +47,12 @@ def attach_images(
     images = ImagePublisher(names, image_topic, frame, image, rate_hz=rate_hz, is_compressible=is_compressible)
     info_topic = camera_topic(sensor, parameters, "cameraInfoTopicName", "camera_info")
     infos = SensorPublisher(names.advertise("sensor_msgs/CameraInfo", info_topic), frame, rate_hz=rate_hz)
-    calibration = read_calibration(sensor, parameters)
+    calibration = Calibration(sensor, parameters, names)
     parameters.ignore("autoDistortion", "triggerTopicName", "cameraName")
 
     def publish(reading: CameraReading) -> None:
         images.publish(reading)
-        infos.publish(reading, lambda: calibration)
+        infos.publish(reading, calibration.message)
 
     sensor.listen(publish, enabled=lambda: images.has_subscribers() or infos.has_subscribers())
     offer_rate(sensor, parameters, names, rate_hz)
@@ -61,6 +64,23 @@ def attach_triggered(sensor: CameraSensor, parameters: TagParameters, names: Plu
     topic = camera_topic(sensor, parameters, "triggerTopicName", "image_trigger")
     names.subscribe(topic, "std_msgs/Empty", lambda _: trigger())
     attach(sensor, parameters, names)
+
+
+class Calibration:
+    """camera_info of a camera: of its image and its plugin's parameters, until set_camera_info changes it."""
+
+    def __init__(self, sensor: CameraSensor, parameters: TagParameters, names: PluginNames) -> None:
+        self._info = _read_calibration(sensor, parameters)
+        service = "/".join(filter(None, (_camera_name(sensor, parameters), "set_camera_info")))
+        names.node.advertise_service(names.topic(service), "sensor_msgs/SetCameraInfo", self._set)
+
+    def message(self) -> dict[str, object]:
+        """Return the fields of sensor_msgs/CameraInfo without its header."""
+        return self._info
+
+    def _set(self, request: "sensor_msgs.SetCameraInfoRequest") -> dict[str, object]:
+        self._info = {name: getattr(request.camera_info, name) for name in self._info}
+        return {"success": True}
 
 
 def offer_rate(sensor: CameraSensor, parameters: TagParameters, names: PluginNames, plugin_rate_hz: float) -> None:
@@ -104,7 +124,7 @@ def _eye(sensor: CameraSensor) -> str:
     return sides[names.index(sensor.optics.name)] if sorted(sides) == _SIDES else sensor.optics.name
 
 
-def read_calibration(sensor: CameraSensor, parameters: TagParameters) -> dict[str, object]:
+def _read_calibration(sensor: CameraSensor, parameters: TagParameters) -> dict[str, object]:
     """Make camera_info, with the plugin's overrides."""
     info: dict[str, Any] = dict(camera_info_message(sensor))
     k, p = list(info["K"]), list(info["P"])

@@ -11,7 +11,7 @@ from trundle.ros.bridge import depth_image, image_encoder, is_compressible, poin
 from trundle.sim.render import clip_depths
 from trundle.sim.sensors import CameraReading, CameraSensor, DepthCameraSensor
 
-from .camera import camera_topic, offer_rate, read_border_crop, read_calibration
+from .camera import Calibration, camera_topic, offer_rate, read_border_crop
 from .image_publisher import ImagePublisher
 from .plugin_names import PluginNames
 from .sensor_publisher import SensorPublisher
@@ -61,7 +61,7 @@ def _attach(sensor: CameraSensor, parameters: TagParameters, names: PluginNames,
     depths = advertise("depthImageTopicName", "depth/image_raw", _IMAGE)
     depth_infos = advertise("depthImageCameraInfoTopicName", "depth/camera_info", _INFO)
     points = advertise("pointCloudTopicName", "points", _POINTS)
-    calibration, cloud = read_calibration(sensor, parameters), point_cloud_encoder(sensor)
+    calibration, cloud = Calibration(sensor, parameters, names), point_cloud_encoder(sensor)
     parameters.ignore("autoDistortion", "cameraName", "depthImageInfoTopicName", "reflectanceTopicName")
 
     @lru_cache(maxsize=1)  # depths and points share a reading
@@ -75,9 +75,9 @@ def _attach(sensor: CameraSensor, parameters: TagParameters, names: PluginNames,
 
     def publish(reading: CameraReading) -> None:
         images.publish(reading)
-        infos.publish(reading, lambda: calibration)
+        infos.publish(reading, calibration.message)
         depths.publish(reading, lambda: depth_message(reading))
-        depth_infos.publish(reading, lambda: calibration)
+        depth_infos.publish(reading, calibration.message)
         points.publish(reading, lambda: cloud(clip(reading)))
 
     publishers = (images, infos, depths, depth_infos, points)
