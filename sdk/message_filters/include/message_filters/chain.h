@@ -1,6 +1,5 @@
 #pragma once
 
-#include <typeinfo>
 #include <vector>
 
 #include "message_filters/pass_through.h"
@@ -11,18 +10,22 @@ namespace message_filters {
 class ChainBase {
  public:
   virtual ~ChainBase() {}
-  /** Filter of a chain by its number; null if there is none, or it has another type. */
+  /** Filter of a chain by its number; null if there is none, or it has neither this type nor one derived from it. */
   template <class F>
   boost::shared_ptr<F> getFilter(size_t index) const {
-    const boost::shared_ptr<void> filter = index < filters_.size() ? filters_[index].filter : boost::shared_ptr<void>();
-    if (!filter || *filters_[index].type != typeid(F)) return boost::shared_ptr<F>();
-    return boost::static_pointer_cast<F>(filter);
+    if (index >= filters_.size()) return boost::shared_ptr<F>();
+    try {
+      filters_[index].raise();
+    } catch (F* filter) {  // also a pointer to a derived class
+      return boost::shared_ptr<F>(filters_[index].filter, filter);
+    } catch (...) {}
+    return boost::shared_ptr<F>();
   }
 
  protected:
   struct Filter {
     boost::shared_ptr<void> filter;
-    const std::type_info* type;
+    boost::function<void()> raise;  // throws the pointer with its own type
   };
   std::vector<Filter> filters_;
 };
@@ -59,7 +62,7 @@ class Chain : public ChainBase, public SimpleFilter<M> {
     else connect_last_(in);
     connect_last_ = [filter](const EventCallback& callback) { return filter->registerCallback(callback); };
     outgoing_ = connect_last_([this](const EventType& e) { this->signalMessage(e); });
-    filters_.push_back(ChainBase::Filter{filter, &typeid(F)});
+    filters_.push_back(ChainBase::Filter{filter, [filter] { throw filter.get(); }});
     return filters_.size() - 1;
   }
   template <class F>

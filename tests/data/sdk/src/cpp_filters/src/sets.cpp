@@ -190,6 +190,10 @@ void checkOthers() {
   second->add(at<Imu>(7));
   CHECK(take() == "6 7 ");
   CHECK(chain.getFilter<PassThrough<Imu> >(1) == second && !chain.getFilter<Cache<Imu> >(1));
+  struct Derived : PassThrough<Imu> {};
+  chain.addFilter(boost::make_shared<Derived>());
+  CHECK(chain.getFilter<PassThrough<Imu> >(2) == chain.getFilter<Derived>(2) && chain.getFilter<Derived>(2));
+  CHECK(!chain.getFilter<Derived>(1) && !chain.getFilter<Derived>(3));
 
   message_filters::TimeSequencer<Imu> sequencer(ros::Duration(0.05), ros::Duration(0.01), 10);
   sequencer.registerCallback(&Listener::onOne, &listener);
