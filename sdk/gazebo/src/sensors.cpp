@@ -32,6 +32,23 @@ namespace sensors {
 using ignition::math::Quaterniond;
 using ignition::math::Vector3d;
 
+namespace {
+
+std::string TopicOf(const Sensor& sensor, const char* last) {
+  std::string name = sensor.ParentName() + "::" + sensor.Name();
+  for (std::size_t at; (at = name.find("::")) != std::string::npos;) name.replace(at, 2, "/");
+  return "~/" + name + "/" + last;
+}
+
+template <typename M>
+transport::PublisherPtr Advertise(const Sensor& sensor, const std::string& topic) {
+  transport::Node node;
+  node.Init(sensor.WorldName());
+  return node.Advertise<M>(topic);
+}
+
+}  // namespace
+
 void Sensor::Take(const void* world, int64_t time_ns, const TrundleGazeboReading& reading) {
   const common::Time time(static_cast<int32_t>(time_ns / 1000000000), static_cast<int32_t>(time_ns % 1000000000));
   if (rate_ > 0.0 && last_ < time && (time - last_).Double() < 0.999 / rate_) return;
@@ -61,12 +78,7 @@ void RaySensor::Read(const sdf::ElementPtr& sdf) {
   };
   read(scan ? scan->FindElement("horizontal") : sdf::ElementPtr(), angle_, count_);
   read(scan ? scan->FindElement("vertical") : sdf::ElementPtr(), vertical_angle_, vertical_count_);
-  transport::Node node;
-  node.Init(WorldName());
-  std::string name = ParentName() + "::" + Name();
-  for (std::size_t at; (at = name.find("::")) != std::string::npos;) name.replace(at, 2, "/");
-  topic_ = "~/" + name + "/scan";
-  scans_ = node.Advertise<msgs::LaserScanStamped>(topic_);
+  scans_ = Advertise<msgs::LaserScanStamped>(*this, topic_ = TopicOf(*this, "scan"));
 }
 
 void Noise::SetCustomNoiseCallback(std::function<double(double)> function) {
@@ -174,6 +186,30 @@ void SonarSensor::Tell(const void* world) {
   new_ranges_.SignalIn(world, message);
 }
 
+void LogicalCameraSensor::Read(const sdf::ElementPtr& sdf) {
+  const sdf::ElementPtr camera = sdf->FindElement("logical_camera");
+  near_ = Number(camera, "near", 0.0);
+  far_ = Number(camera, "far", 1.0);
+  horizontal_fov_ = Number(camera, "horizontal_fov", 1.0);
+  aspect_ratio_ = Number(camera, "aspect_ratio", 1.0);
+  images_ = Advertise<msgs::LogicalCameraImage>(*this, topic_ = TopicOf(*this, "models"));
+}
+
+void LogicalCameraSensor::Set(const TrundleGazeboReading& reading) {
+  image_.Clear();
+  if (link_) msgs::Set(image_.mutable_pose(), Pose() + link_->WorldPose());
+  for (int i = 0; i < reading.contact_count; ++i) {
+    const double* v = reading.values + 7 * i;
+    msgs::LogicalCameraImage::Model& model = *image_.add_model();
+    model.set_name(reading.contacts[i].collision1);
+    msgs::Set(model.mutable_pose(), ignition::math::Pose3d(v[0], v[1], v[2], v[3], v[4], v[5], v[6]));
+  }
+}
+
+void LogicalCameraSensor::Tell(const void*) {
+  if (images_->HasConnections()) images_->Publish(image_);
+}
+
 void ContactSensor::Read(const sdf::ElementPtr& sdf) {
   const sdf::ElementPtr contact = sdf->FindElement("contact");
   if (!contact) return;
@@ -272,6 +308,7 @@ SensorPtr make(const std::string& type) {
   if (type == "contact") return std::make_shared<ContactSensor>();
   if (type == "gps") return std::make_shared<GpsSensor>();
   if (type == "sonar") return std::make_shared<SonarSensor>();
+  if (type == "logical_camera") return std::make_shared<LogicalCameraSensor>();
   if (type == "force_torque") return std::make_shared<ForceTorqueSensor>();
   return SensorPtr();
 }
@@ -307,6 +344,8 @@ SensorPtr SensorManager::Make(const physics::WorldPtr& world, const physics::Bas
     force_torque->joint_ = boost::dynamic_pointer_cast<physics::Joint>(parent);
   if (const auto imu = std::dynamic_pointer_cast<ImuSensor>(sensor))
     imu->link_ = boost::dynamic_pointer_cast<physics::Link>(parent);
+  if (const auto camera = std::dynamic_pointer_cast<LogicalCameraSensor>(sensor))
+    camera->link_ = boost::dynamic_pointer_cast<physics::Link>(parent);
   sensor->Read(sdf);
   made_sensors.push_back({world.get(), name, sensor});
   return sensor;

@@ -53,7 +53,8 @@ struct TrundleGazeboContact {
 /* Reading of a sensor; what its kind does not have is null. */
 struct TrundleGazeboReading {
   /* ray: ranges, then as many intensities; imu: rotation, angular velocity, acceleration; gps: latitude, longitude
-     [rad], altitude; sonar: range; force_torque: force, torque; multicamera: number of the camera. */
+     [rad], altitude; sonar: range; force_torque: force, torque; multicamera: number of the camera;
+     logical_camera: positions and rotations of the models that `contacts` name. */
   const double* values;
   int64_t count;
   /* Cameras: rows of colors, three bytes each, and depths. */

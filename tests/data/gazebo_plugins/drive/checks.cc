@@ -37,6 +37,7 @@ public:
     CheckSdf(_sdf);
     CheckMath();
     CheckUri();
+    CheckPaths();
     CheckWorld();
     this->begin = event::Events::ConnectWorldUpdateBegin(boost::bind(&Checks::OnBegin, this, _1));
     this->end = event::Events::ConnectWorldUpdateEnd(boost::bind(&Checks::OnEnd, this));
@@ -115,6 +116,18 @@ private:
     {
       CHECK(error.GetErrorStr() == "number 3");
     }
+  }
+
+  void CheckPaths()
+  {
+    common::SystemPaths* const paths = common::SystemPaths::Instance();
+    CHECK(paths->FindFileURI("file:///dev/null") == "/dev/null" && paths->FindFile("/dev/none").empty());
+    CHECK(paths->FindFile("null").empty() && paths->FindFileURI("model://none").empty());
+    paths->AddGazeboPaths("/none:/dev");
+    CHECK(common::find_file("null") == "/dev/null" && common::find_file_path("null") == "/dev");
+    common::add_search_path_suffix("dev/");
+    paths->AddGazeboPaths("/");
+    CHECK(paths->FindFile("null") == "/dev/null" && paths->GetGazeboPaths().back() == "/");
   }
 
   void CheckUri()

@@ -44,12 +44,19 @@ class Sense : public SensorPlugin {
       scans_ = node_->Subscribe(sensor->Topic(), &Sense::OnScan, this);
       sensor->Noise(sensors::RAY_NOISE)->SetCustomNoiseCallback([](double range) { return range + 0.25; });
     }
+    if (sensor->Type() == "logical_camera") {
+      node_ = transport::NodePtr(new transport::Node());
+      node_->Init(sensor->WorldName());
+      models_ = node_->Subscribe(sensor->Topic(), &Sense::OnModels, this);
+    }
     updated_ = sensor->ConnectUpdated([this] { OnUpdate(); });
     sensor->SetActive(true);
   }
 
  private:
   void OnScan(ConstLaserScanStampedPtr& message) { scanned_ = message->scan().ranges_size(); }
+
+  void OnModels(ConstLogicalCameraImagePtr& message) { listed_ = message->model_size(); }
 
   void OnUpdate() {
     if (is_told_ || sensor_->LastMeasurementTime() < common::Time(0.3)) return;
@@ -68,7 +75,18 @@ class Sense : public SensorPlugin {
       std::snprintf(text, sizeof(text), "%.3f %.3f", gps->Latitude().Degree(), gps->Altitude());
     else if (auto sonar = std::dynamic_pointer_cast<sensors::SonarSensor>(sensor_))
       std::snprintf(text, sizeof(text), "%.2f of %.1f", sonar->Range(), sonar->RangeMax());
-    else if (auto contact = std::dynamic_pointer_cast<sensors::ContactSensor>(sensor_)) {
+    else if (auto logical = std::dynamic_pointer_cast<sensors::LogicalCameraSensor>(sensor_)) {
+      const msgs::LogicalCameraImage image = logical->Image();
+      std::snprintf(text, sizeof(text), "from %.1f to %.1f at z %.2f, topic %d:", logical->Near(), logical->Far(),
+                    image.pose().position().z(), listed_);
+      std::string list = text;
+      for (int i = 0; i < image.model_size(); ++i) {
+        const msgs::LogicalCameraImage::Model& model = image.model(i);
+        std::snprintf(text, sizeof(text), " %s %.2f", model.name().c_str(), model.pose().position().x());
+        list += text;
+      }
+      return list;
+    } else if (auto contact = std::dynamic_pointer_cast<sensors::ContactSensor>(sensor_)) {
       double force = 0.0;
       const msgs::Contacts contacts = contact->Contacts();
       for (int i = 0; i < contacts.contact_size(); ++i)
@@ -93,10 +111,10 @@ class Sense : public SensorPlugin {
   sensors::SensorPtr sensor_;
   std::string word_, picture_, order_;
   float depth_ = 0.0f;
-  int scanned_ = 0;
+  int scanned_ = 0, listed_ = 0;
   bool is_told_ = false;
   transport::NodePtr node_;
-  transport::SubscriberPtr scans_;
+  transport::SubscriberPtr scans_, models_;
   event::ConnectionPtr updated_, image_, depths_;
   std::vector<event::ConnectionPtr> images_;
 };

@@ -70,8 +70,11 @@ def test_each_kind_of_sensor_gives_its_readings(built: Path) -> None:
         "bumper": seen.get("bumper", "nothing"),
         "eye": "64x48 R8G8B8 red",
         "deep": "64x48 R8G8B8 red, depth 1.80",
+        "list": seen.get("list", "nothing"),
         "eyes": "01 left red right other",
     }, output
+    assert seen["list"] == "from 0.5 to 3.0 at z 0.90, topic 2: ground_plane -0.20 wall 1.85"
+    assert "idle is loaded" in output
     assert "noise" not in output
     assert re.fullmatch(r"1\.\d\d of 5\.0", seen["sonar"])
     force = re.fullmatch(r"(\d+\.\d) N with ground_plane::link::collision", seen["bumper"])

@@ -97,9 +97,11 @@ class VisualPlugin : public PluginT<VisualPlugin> {
 // The simulator opens only libraries with this text: others are for Gazebo itself.
 #define TRUNDLE_GAZEBO_MARK "trundle gazebo plugin, interface 1"
 
-#define TRUNDLE_REGISTER_PLUGIN(classname, base, kind)                                         \
-  extern "C" GZ_PLUGIN_VISIBLE const char* TrundleGazeboMark() { return TRUNDLE_GAZEBO_MARK; } \
-  extern "C" GZ_PLUGIN_VISIBLE int TrundleGazeboPluginKind() { return ::gazebo::kind; }        \
+// TrundleGazeboLink links a plugin that uses nothing else of the library, which the linker would leave out.
+#define TRUNDLE_REGISTER_PLUGIN(classname, base, kind)                                            \
+  extern "C" GZ_PLUGIN_VISIBLE const char* TrundleGazeboMark() { return TRUNDLE_GAZEBO_MARK; }    \
+  extern "C" GZ_PLUGIN_VISIBLE const void* TrundleGazeboLink() { return ::trundle_gazebo_kit(); } \
+  extern "C" GZ_PLUGIN_VISIBLE int TrundleGazeboPluginKind() { return ::gazebo::kind; }           \
   extern "C" GZ_PLUGIN_VISIBLE void* TrundleGazeboMakePlugin() { return static_cast<::gazebo::base*>(new classname()); }
 
 #define GZ_REGISTER_WORLD_PLUGIN(classname) TRUNDLE_REGISTER_PLUGIN(classname, WorldPlugin, WORLD_PLUGIN)

@@ -7,6 +7,7 @@
 #include <gazebo/common/Animation.hh>
 #include <gazebo/common/Assert.hh>
 #include <gazebo/common/Color.hh>
+#include <gazebo/common/CommonIface.hh>
 #include <gazebo/common/CommonTypes.hh>
 #include <gazebo/common/Console.hh>
 #include <gazebo/common/Event.hh>
@@ -15,6 +16,7 @@
 #include <gazebo/common/KeyFrame.hh>
 #include <gazebo/common/PID.hh>
 #include <gazebo/common/Plugin.hh>
+#include <gazebo/common/SystemPaths.hh>
 #include <gazebo/common/Time.hh>
 #include <gazebo/common/Timer.hh>
 #include <gazebo/common/URI.hh>

@@ -265,6 +265,24 @@ class SonarStamped {
   void Clear() { *this = SonarStamped(); }
 };
 
+class LogicalCameraImage_Model {
+  TRUNDLE_FIELD(std::string, name)
+  TRUNDLE_MESSAGE(Pose, pose)
+
+ public:
+  void Clear() { *this = LogicalCameraImage_Model(); }
+};
+
+class LogicalCameraImage {
+ public:
+  typedef LogicalCameraImage_Model Model;
+  TRUNDLE_MESSAGE(Pose, pose)
+  TRUNDLE_MESSAGES(Model, model)
+
+ public:
+  void Clear() { *this = LogicalCameraImage(); }
+};
+
 class Tactile {
   TRUNDLE_FIELDS(std::string, collision_name)
   TRUNDLE_FIELDS(int32_t, collision_id)
@@ -367,6 +385,7 @@ typedef boost::shared_ptr<WorldStatistics> WorldStatisticsPtr;
 typedef boost::shared_ptr<LaserScan> LaserScanPtr;
 typedef boost::shared_ptr<LaserScanStamped> LaserScanStampedPtr;
 typedef boost::shared_ptr<SonarStamped> SonarStampedPtr;
+typedef boost::shared_ptr<LogicalCameraImage> LogicalCameraImagePtr;
 
 }  // namespace msgs
 }  // namespace gazebo
@@ -397,6 +416,7 @@ typedef const boost::shared_ptr<const gazebo::msgs::WorldStatistics> ConstWorldS
 typedef const boost::shared_ptr<const gazebo::msgs::LaserScan> ConstLaserScanPtr;
 typedef const boost::shared_ptr<const gazebo::msgs::LaserScanStamped> ConstLaserScanStampedPtr;
 typedef const boost::shared_ptr<const gazebo::msgs::SonarStamped> ConstSonarStampedPtr;
+typedef const boost::shared_ptr<const gazebo::msgs::LogicalCameraImage> ConstLogicalCameraImagePtr;
 
 #include <gazebo/msgs/world_messages.h>
 

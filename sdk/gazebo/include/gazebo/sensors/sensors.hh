@@ -9,6 +9,7 @@
 #include <gazebo/sensors/GpsSensor.hh>
 #include <gazebo/sensors/GpuRaySensor.hh>
 #include <gazebo/sensors/ImuSensor.hh>
+#include <gazebo/sensors/LogicalCameraSensor.hh>
 #include <gazebo/sensors/MultiCameraSensor.hh>
 #include <gazebo/sensors/Noise.hh>
 #include <gazebo/sensors/RaySensor.hh>

@@ -20,6 +20,7 @@ from trundle.sim.sensors import (
     GpsReading,
     ImuReading,
     InstrumentSensor,
+    LogicalCameraReading,
     RangeReading,
     SonarReading,
 )
@@ -85,6 +86,9 @@ def _values(reading: object) -> NDArray[np.float64]:
             values = (reading.range_m,)
         case ForceTorqueReading():
             values = (*reading.wrench.force, *reading.wrench.torque)
+        case LogicalCameraReading():
+            poses = [model.camera_from_model for model in reading.models]
+            values = tuple(number for pose in poses for number in (*pose.position, *pose.quaternion))
         case CameraReading() | ContactReading():
             values = ()
         case _:
@@ -93,7 +97,9 @@ def _values(reading: object) -> NDArray[np.float64]:
 
 
 def _contacts(reading: object) -> list[_Contact]:
-    """Return the contacts of the last step of a reading."""
+    """Return the contacts of the last step of a reading, or the names of the models in view."""
+    if isinstance(reading, LogicalCameraReading):
+        return [(model.name, "", (0.0,) * 10) for model in reading.models]
     if not isinstance(reading, ContactReading):
         return []
     last_ns = max((record.time_ns for record in reading.contacts), default=0)
