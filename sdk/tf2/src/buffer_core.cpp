@@ -25,24 +25,23 @@ bool isFinite(const geometry_msgs::Transform& t) {
          std::isfinite(t.rotation.w);
 }
 
-geometry_msgs::TransformStamped message(const Transform& t, const ros::Time& time, const std::string& target,
-                                        const std::string& source) {
+}  // namespace
+
+geometry_msgs::TransformStamped BufferCore::message(const Motion& motion, const ros::Time& time,
+                                                    const std::string& target, const std::string& source) {
   geometry_msgs::TransformStamped m;
   m.header.stamp = time;
   m.header.frame_id = target;
   m.child_frame_id = source;
-  const Quaternion q = t.getRotation();
-  m.transform.translation.x = t.getOrigin().x();
-  m.transform.translation.y = t.getOrigin().y();
-  m.transform.translation.z = t.getOrigin().z();
-  m.transform.rotation.x = q.x();
-  m.transform.rotation.y = q.y();
-  m.transform.rotation.z = q.z();
-  m.transform.rotation.w = q.w();
+  m.transform.translation.x = motion.origin.x();
+  m.transform.translation.y = motion.origin.y();
+  m.transform.translation.z = motion.origin.z();
+  m.transform.rotation.x = motion.rotation.x();
+  m.transform.rotation.y = motion.rotation.y();
+  m.transform.rotation.z = motion.rotation.z();
+  m.transform.rotation.w = motion.rotation.w();
   return m;
 }
-
-}  // namespace
 
 void BufferCore::clear() {
   const std::lock_guard<std::recursive_mutex> lock(mutex_);
@@ -74,6 +73,7 @@ bool BufferCore::setTransform(const geometry_msgs::TransformStamped& transform, 
   const std::lock_guard<std::recursive_mutex> lock(listeners_mutex_);
   const std::map<size_t, boost::function<void()> > listeners = listeners_;
   for (const auto& entry : listeners) entry.second();
+  answerRequests();
   return true;
 }
 
@@ -97,6 +97,54 @@ bool BufferCore::store(const std::string& child, const Sample& sample, const std
   const ros::Time latest = frame.samples.rbegin()->first;
   while (latest - frame.samples.begin()->first > cache_time_) frame.samples.erase(frame.samples.begin());
   return true;
+}
+
+TransformableCallbackHandle BufferCore::addTransformableCallback(const TransformableCallback& callback) {
+  const std::lock_guard<std::recursive_mutex> lock(listeners_mutex_);
+  callbacks_[next_callback_] = callback;
+  return next_callback_++;
+}
+
+void BufferCore::removeTransformableCallback(TransformableCallbackHandle handle) {
+  const std::lock_guard<std::recursive_mutex> lock(listeners_mutex_);
+  callbacks_.erase(handle);
+  for (auto at = requests_.begin(); at != requests_.end();)
+    at = at->second.callback == handle ? requests_.erase(at) : std::next(at);
+}
+
+TransformableRequestHandle BufferCore::addTransformableRequest(TransformableCallbackHandle handle,
+                                                               const std::string& target_frame,
+                                                               const std::string& source_frame, ros::Time time) {
+  const std::lock_guard<std::recursive_mutex> lock(listeners_mutex_);
+  const Request request{handle, target_frame, source_frame, time};
+  if (canTransform(target_frame, source_frame, time)) return 0;
+  if (hasLeft(request)) return ~TransformableRequestHandle(0);
+  requests_[next_request_] = request;
+  return next_request_++;
+}
+
+void BufferCore::cancelTransformableRequest(TransformableRequestHandle handle) {
+  const std::lock_guard<std::recursive_mutex> lock(listeners_mutex_);
+  requests_.erase(handle);
+}
+
+bool BufferCore::hasLeft(const Request& request) const {
+  if (request.time.isZero() || !frameExists(request.target) || !frameExists(request.source)) return false;
+  const ros::Time latest = getLatestCommonTime(request.target, request.source);
+  return !latest.isZero() && request.time + cache_time_ < latest;
+}
+
+void BufferCore::answerRequests() {
+  const std::map<TransformableRequestHandle, Request> waiting = requests_;
+  for (const auto& entry : waiting) {
+    const Request& request = entry.second;
+    const bool is_there = canTransform(request.target, request.source, request.time);
+    if ((!is_there && !hasLeft(request)) || requests_.erase(entry.first) == 0) continue;
+    const TransformableCallback callback = callbacks_[request.callback];
+    if (callback)
+      callback(entry.first, request.target, request.source, request.time,
+               is_there ? TransformAvailable : TransformFailure);
+  }
 }
 
 size_t BufferCore::addTransformsListener(const boost::function<void()>& listener) {
@@ -145,15 +193,15 @@ bool BufferCore::find(const Frame& frame, const std::string& name, const ros::Ti
 BufferCore::Chain BufferCore::chainUp(const std::string& from, const ros::Time& time, const std::string& until) const {
   Chain chain;
   std::string name = from;
-  Transform transform = Transform::getIdentity();
-  chain.frames.emplace_back(name, transform);
+  Motion motion = Motion::identity();
+  chain.frames.emplace_back(name, motion);
   for (int depth = 0; depth < kMaxDepth && name != until; ++depth) {
     const auto frame = frames_.find(name);
     Sample sample;
     if (frame == frames_.end() || !find(frame->second, name, time, sample, chain.fault)) break;
-    transform = Transform(sample.rotation, sample.origin) * transform;
+    motion = Motion{sample.rotation, sample.origin} * motion;
     name = sample.parent;
-    chain.frames.emplace_back(name, transform);
+    chain.frames.emplace_back(name, motion);
   }
   return chain;
 }
@@ -189,11 +237,11 @@ std::string BufferCore::checked(const std::string& frame, const char* what) cons
   return name;
 }
 
-Transform BufferCore::lookUp(const std::string& target, const std::string& source, ros::Time& time) const {
+BufferCore::Motion BufferCore::lookUp(const std::string& target, const std::string& source, ros::Time& time) const {
   if (target == source) {
     if (time.isZero() && frames_.count(target) && !frames_.at(target).samples.empty())
       time = frames_.at(target).samples.rbegin()->first;
-    return Transform::getIdentity();
+    return Motion::identity();
   }
   if (time.isZero()) time = latestCommon(target, source);
   const Chain a = chainUp(target, time, source), b = chainUp(source, time, target);
@@ -211,14 +259,14 @@ geometry_msgs::TransformStamped BufferCore::lookupTransform(const std::string& t
   const std::lock_guard<std::recursive_mutex> lock(mutex_);
   if (target_frame == source_frame) {  // also of a frame that nobody has sent yet
     ros::Time at = time;
-    const Transform identity = lookUp(target_frame, source_frame, at);
+    const Motion identity = lookUp(target_frame, source_frame, at);
     return message(identity, at, target_frame, source_frame);
   }
   const std::string target = checked(target_frame, "lookupTransform argument target_frame"),
                     source = checked(source_frame, "lookupTransform argument source_frame");
   ros::Time at = time;
-  const Transform transform = lookUp(target, source, at);
-  return message(transform, at, target_frame, source_frame);
+  const Motion motion = lookUp(target, source, at);
+  return message(motion, at, target_frame, source_frame);
 }
 
 geometry_msgs::TransformStamped BufferCore::lookupTransform(const std::string& target_frame,
@@ -231,8 +279,8 @@ geometry_msgs::TransformStamped BufferCore::lookupTransform(const std::string& t
                     source = checked(source_frame, "lookupTransform argument source_frame"),
                     fixed = checked(fixed_frame, "lookupTransform argument fixed_frame");
   ros::Time at_source = source_time, at_target = target_time;
-  const Transform from_source = lookUp(fixed, source, at_source);
-  const Transform to_target = lookUp(target, fixed, at_target);
+  const Motion from_source = lookUp(fixed, source, at_source);
+  const Motion to_target = lookUp(target, fixed, at_target);
   return message(to_target * from_source, at_target, target_frame, source_frame);
 }
 

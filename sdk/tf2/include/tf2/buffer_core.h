@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "tf2/LinearMath/Quaternion.h"
 #include "tf2/LinearMath/Transform.h"
 #include "tf2/exceptions.h"
 #include "tf2/transform_datatypes.h"
@@ -18,6 +19,11 @@
 namespace tf2 {
 
 /** Tree of frames over the last seconds; thread-safe. */
+typedef uint32_t TransformableCallbackHandle;
+/** Number of a request; 0: it is transformable already; all bits: it never will be. */
+typedef uint64_t TransformableRequestHandle;
+enum TransformableResult { TransformAvailable, TransformFailure };
+
 class BufferCore {
  public:
   static const int DEFAULT_CACHE_TIME = 10;
@@ -52,6 +58,18 @@ class BufferCore {
   /** Call a function after each transform that is set, in that thread, until the number that is returned is removed. */
   size_t addTransformsListener(const boost::function<void()>& listener);
   void removeTransformsListener(size_t number);
+  typedef boost::function<void(TransformableRequestHandle request, const std::string& target_frame,
+                               const std::string& source_frame, ros::Time time, TransformableResult result)>
+      TransformableCallback;
+  /** A function for requests, called by setTransform(). */
+  TransformableCallbackHandle addTransformableCallback(const TransformableCallback& callback);
+  /** Forget a function, and the requests that wait for it. */
+  void removeTransformableCallback(TransformableCallbackHandle handle);
+  /** Call a function once when frames are transformable at a time, or when that time has left the cache. */
+  TransformableRequestHandle addTransformableRequest(TransformableCallbackHandle handle,
+                                                     const std::string& target_frame, const std::string& source_frame,
+                                                     ros::Time time);
+  void cancelTransformableRequest(TransformableRequestHandle handle);
   /** Announce that another thread sets transforms, so that this one may wait for them. */
   void setUsingDedicatedThread(bool is_used) { has_thread_ = is_used; }
   bool isUsingDedicatedThread() const { return has_thread_; }
@@ -68,16 +86,35 @@ class BufferCore {
     std::string authority;
     std::map<ros::Time, Sample> samples;
   };
-  /** Chain from a frame up to the root: each frame, and the transform to it from the first one. */
+  /** Rotation and translation; the signs of products of quaternions are those of the original. */
+  struct Motion {
+    Quaternion rotation;
+    Vector3 origin;
+    static Motion identity() { return {Quaternion::getIdentity(), Vector3(0.0, 0.0, 0.0)}; }
+    Motion operator*(const Motion& other) const {
+      return {rotation * other.rotation, quatRotate(rotation, other.origin) + origin};
+    }
+    Motion inverse() const { return {rotation.inverse(), quatRotate(rotation.inverse(), -origin)}; }
+  };
+  static geometry_msgs::TransformStamped message(const Motion& motion, const ros::Time& time, const std::string& target,
+                                                 const std::string& source);
+  /** Chain from a frame up to the root: each frame, and the motion to it from the first one. */
   struct Chain {
-    std::vector<std::pair<std::string, Transform> > frames;
+    std::vector<std::pair<std::string, Motion> > frames;
     std::string fault;
   };
+  struct Request {
+    TransformableCallbackHandle callback;
+    std::string target, source;
+    ros::Time time;
+  };
+  bool hasLeft(const Request& request) const;
+  void answerRequests();
   bool store(const std::string& child, const Sample& sample, const std::string& authority, bool is_static);
   bool find(const Frame& frame, const std::string& name, const ros::Time& time, Sample& sample,
             std::string& fault) const;
   Chain chainUp(const std::string& from, const ros::Time& time, const std::string& until) const;
-  Transform lookUp(const std::string& target, const std::string& source, ros::Time& time) const;
+  Motion lookUp(const std::string& target, const std::string& source, ros::Time& time) const;
   ros::Time latestCommon(const std::string& target, const std::string& source) const;
   std::string checked(const std::string& frame, const char* what) const;
   std::vector<std::string> ancestors(const std::string& frame) const;
@@ -89,6 +126,10 @@ class BufferCore {
   std::recursive_mutex listeners_mutex_;
   std::map<size_t, boost::function<void()> > listeners_;
   size_t next_listener_ = 1;
+  std::map<TransformableCallbackHandle, TransformableCallback> callbacks_;
+  std::map<TransformableRequestHandle, Request> requests_;
+  TransformableCallbackHandle next_callback_ = 1;
+  TransformableRequestHandle next_request_ = 1;
   std::atomic<bool> has_thread_{false};
 };
 

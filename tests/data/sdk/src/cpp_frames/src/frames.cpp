@@ -56,6 +56,38 @@ void checkMath() {
   CHECK(near(tf::getYaw(tf::createQuaternionMsgFromYaw(-2.0)), -2.0));
 }
 
+geometry_msgs::TransformStamped turn(double degrees, int second, const std::string& parent, const std::string& child) {
+  geometry_msgs::TransformStamped turned;
+  turned.header.stamp = ros::Time(second);
+  turned.header.frame_id = parent;
+  turned.child_frame_id = child;
+  turned.transform.rotation.z = sin(degrees * M_PI / 360);
+  turned.transform.rotation.w = cos(degrees * M_PI / 360);
+  return turned;
+}
+
+void checkRequests() {
+  tf2::BufferCore frames;
+  std::vector<tf2::TransformableResult> results;
+  const auto number = frames.addTransformableCallback(
+      [&](tf2::TransformableRequestHandle, const std::string&, const std::string&, ros::Time,
+          tf2::TransformableResult result) { results.push_back(result); });
+  CHECK(frames.addTransformableRequest(number, "a", "b", ros::Time(3)) > 0);
+  const auto cancelled = frames.addTransformableRequest(number, "a", "b", ros::Time(3));
+  CHECK(frames.addTransformableRequest(number, "a", "c", ros::Time(1)) > 0);
+  frames.cancelTransformableRequest(cancelled);
+  for (int second : {2, 3}) frames.setTransform(turn(-135, second, "a", "b"), "test");
+  CHECK((results == std::vector<tf2::TransformableResult>{tf2::TransformAvailable}));
+  CHECK(frames.addTransformableRequest(number, "a", "b", ros::Time(2)) == 0);
+  frames.setTransform(turn(-90, 20, "a", "b"), "test");
+  frames.setTransform(turn(-90, 20, "b", "c"), "test");
+  CHECK(results.size() == 2 && results.back() == tf2::TransformFailure);
+  CHECK(~frames.addTransformableRequest(number, "a", "b", ros::Time(2)) == 0);
+  // The product of the quaternions, not one of the matrix.
+  const auto rotation = frames.lookupTransform("a", "c", ros::Time(20)).transform.rotation;
+  CHECK(near(rotation.z, -1) && near(rotation.w, 0));
+}
+
 void checkBuffer() {
   tf::Transformer frames;
   for (int i = 0; i <= 4; ++i)
@@ -134,6 +166,7 @@ int main(int argc, char** argv) {
   ros::NodeHandle n;
   checkMath();
   checkBuffer();
+  checkRequests();
   checkTwist();
 
   tf::TransformListener listener;
