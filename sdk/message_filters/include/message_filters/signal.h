@@ -3,6 +3,7 @@
 #include <ros/message_event.h>
 #include <ros/parameter_adapter.h>
 
+#include <boost/array.hpp>  // which programs take from here
 #include <boost/bind.hpp>
 #include <boost/function.hpp>
 #include <boost/make_shared.hpp>

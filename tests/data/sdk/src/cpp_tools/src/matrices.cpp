@@ -42,6 +42,22 @@ int main() {
   tf::transformTFToEigen(transform, again);
   CHECK(again.isApprox(isometry));
 
+  const tf2::Stamped<Eigen::Vector3d> here(Eigen::Vector3d(1, 2, 3), ros::Time(5), "odom");
+  tf2::Stamped<Eigen::Vector3d> there;
+  geometry_msgs::PointStamped sent;
+  geometry_msgs::Point bare;
+  tf2::convert(here, sent);
+  tf2::convert(Eigen::Vector3d(0, 0, 4), bare);
+  tf2::convert(sent, there);
+  CHECK(there == here && there.frame_id_ == "odom" && there.stamp_ == ros::Time(5) && bare.z == 4);
+  geometry_msgs::TransformStamped quarter = tf2::eigenToTransform(isometry);
+  quarter.header.frame_id = "map";
+  tf2::doTransform(here, there, quarter);
+  CHECK(there.isApprox(Eigen::Vector3d(-1, 1, 1)) && there.frame_id_ == "map");
+  tf2::Stamped<Eigen::Isometry3d> moved;
+  tf2::doTransform(tf2::Stamped<Eigen::Isometry3d>(isometry, ros::Time(5), "odom"), moved, quarter);
+  CHECK(tf2::toMsg(moved).header.frame_id == "map" && moved.isApprox(isometry * isometry));
+
   tf2_ros::Buffer buffer;
   geometry_msgs::TransformStamped base = tf2::eigenToTransform(isometry);
   base.header.frame_id = "odom";
