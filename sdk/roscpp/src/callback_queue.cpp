@@ -6,9 +6,39 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <set>
 #include <thread>
 
 namespace ros {
+
+namespace {
+
+/** Queues that were not destroyed. It is never destroyed itself: queues may be static. */
+struct Queues {
+  std::mutex mutex;
+  std::set<const CallbackQueueInterface*> known;
+  static Queues& all() {
+    static Queues* const queues = new Queues;
+    return *queues;
+  }
+};
+
+}  // namespace
+
+CallbackQueueInterface::CallbackQueueInterface() {
+  const std::lock_guard<std::mutex> lock(Queues::all().mutex);
+  Queues::all().known.insert(this);
+}
+
+CallbackQueueInterface::~CallbackQueueInterface() {
+  const std::lock_guard<std::mutex> lock(Queues::all().mutex);
+  Queues::all().known.erase(this);
+}
+
+bool CallbackQueueInterface::exists(const CallbackQueueInterface* queue) {
+  const std::lock_guard<std::mutex> lock(Queues::all().mutex);
+  return Queues::all().known.count(queue) > 0;
+}
 
 struct CallbackQueue::Implementation {
   struct Entry {

@@ -89,7 +89,8 @@ void Publication::removeCallbacks(const boost::shared_ptr<Callbacks>& callbacks)
     const std::lock_guard<std::mutex> lock(mutex_);
     callbacks_.erase(std::remove(callbacks_.begin(), callbacks_.end(), callbacks), callbacks_.end());
   }
-  callbacks->queue->removeByID(reinterpret_cast<uint64_t>(callbacks.get()));
+  if (CallbackQueueInterface::exists(callbacks->queue))
+    callbacks->queue->removeByID(reinterpret_cast<uint64_t>(callbacks.get()));
 }
 
 void Publication::addLink(const boost::shared_ptr<SubscriberLink>& link) {

@@ -129,7 +129,8 @@ void unadvertise(const std::shared_ptr<Offer>& offer) {
     if (found == state().offers.end() || found->second != offer) return;
     state().offers.erase(found);
   }
-  if (offer->options.callback_queue) offer->options.callback_queue->removeByID(reinterpret_cast<uint64_t>(offer.get()));
+  if (CallbackQueueInterface::exists(offer->options.callback_queue))
+    offer->options.callback_queue->removeByID(reinterpret_cast<uint64_t>(offer.get()));
   closeClients(offer);
   callMaster("unregisterService", offer->options.service, false);
 }

@@ -153,7 +153,8 @@ bool Subscription::removeCallback(const SubscriptionCallbackHelperPtr& helper) {
     queues_.erase(found);
     is_last = queues_.empty();
   }
-  removed->queue->removeByID(reinterpret_cast<uint64_t>(helper.get()));
+  if (CallbackQueueInterface::exists(removed->queue))
+    removed->queue->removeByID(reinterpret_cast<uint64_t>(helper.get()));
   return is_last;
 }
 

@@ -217,7 +217,7 @@ void TimerImpl::stop() {
     ++generation_;
   }
   loop_.remove(this);
-  if (queue_) queue_->removeByID(reinterpret_cast<uint64_t>(this));
+  if (CallbackQueueInterface::exists(queue_)) queue_->removeByID(reinterpret_cast<uint64_t>(this));
 }
 
 void TimerImpl::setPeriod(int64_t period, bool reset) {

@@ -24,9 +24,12 @@ class CallbackInterface {
 };
 typedef boost::shared_ptr<CallbackInterface> CallbackInterfacePtr;
 
-class CallbackQueueInterface {
+class ROSCPP_DECL CallbackQueueInterface {
  public:
-  virtual ~CallbackQueueInterface() {}
+  CallbackQueueInterface();
+  virtual ~CallbackQueueInterface();
+  /** False of null, and of a queue that was destroyed: a plugin may destroy its own before the subscribers to it. */
+  static bool exists(const CallbackQueueInterface* queue);
   virtual void addCallback(const CallbackInterfacePtr& callback, uint64_t owner_id = 0) = 0;
   /** Remove an owner's calls, and wait for a call that is running in another thread. */
   virtual void removeByID(uint64_t owner_id) = 0;

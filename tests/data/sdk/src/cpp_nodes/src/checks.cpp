@@ -184,6 +184,17 @@ void checkTopics(ros::NodeHandle& n) {
   queue.callAvailable(ros::WallDuration(1));
   CHECK(received == (std::vector<int>{3, 4}));
   CHECK(queue.isEmpty());
+
+  // Members of a plugin are destroyed in the reverse order of their declarations: the queue may come first.
+  ros::Subscriber longer;
+  {
+    ros::CallbackQueue brief;
+    other.setCallbackQueue(&brief);
+    longer = other.subscribe<std_msgs::Int32>("fast", 1, [](const std_msgs::Int32ConstPtr&) {});
+    CHECK(ros::CallbackQueueInterface::exists(&brief));
+  }
+  longer.shutdown();
+  CHECK(!longer && !ros::CallbackQueueInterface::exists(nullptr));
 }
 
 bool add(cpp_nodes::AddTwoInts::Request& req, cpp_nodes::AddTwoInts::Response& res) {
