@@ -190,7 +190,8 @@ void checkTopics(ros::NodeHandle& n) {
   {
     ros::CallbackQueue brief;
     other.setCallbackQueue(&brief);
-    longer = other.subscribe<std_msgs::Int32>("fast", 1, [](const std_msgs::Int32ConstPtr&) {});
+    longer = other.subscribe<std_msgs::Int32>(
+        "fast", 1, [&received](const std_msgs::Int32ConstPtr& m) { received.push_back(m->data); });
     CHECK(ros::CallbackQueueInterface::exists(&brief));
   }
   longer.shutdown();
