@@ -9,7 +9,7 @@ import os
 import threading
 from collections.abc import Generator, Iterable, Mapping, Sequence
 from contextlib import closing
-from typing import TYPE_CHECKING, TypeAlias, TypeVar
+from typing import Protocol, TypeAlias, TypeVar
 
 import numpy as np
 from msgspec import Struct
@@ -21,9 +21,6 @@ from trundle.robots.meshes import RawPart, load_parts, save_parts
 from . import jobs
 from .pieces import ConcavePart, ConvexPieces, Detail, HullError, hull_of_part
 from .splitting import MAX_PIECES, MAX_SLABS, MeshSplit, as_single_hull, split_mesh
-
-if TYPE_CHECKING:
-    from .background import BackgroundCutting
 
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
@@ -62,10 +59,21 @@ class DecomposedMesh(Struct, frozen=True):
     """See `MeshSplit`."""
 
 
+class Background(Protocol):
+    """Decomposes parts while their hulls stand in."""
+
+    failed: set[str]
+    """Keys of the parts that could not be decomposed."""
+
+    def cut(self, parts: Sequence[ConcavePart]) -> None:
+        """Decompose parts that are not being decomposed already."""
+        ...
+
+
 class WorldDecomposition:
     """Decomposition of all meshes of one world."""
 
-    def __init__(self, background: "BackgroundCutting | None" = None) -> None:
+    def __init__(self, background: Background | None = None) -> None:
         """Prepare.
 
         Args:
@@ -95,7 +103,7 @@ class WorldDecomposition:
                 if pieces is None:
                     self._failed[part.key] = hull_of_part(part)
 
-    def _stand_in(self, todo: Mapping[str, ConcavePart], background: "BackgroundCutting") -> None:
+    def _stand_in(self, todo: Mapping[str, ConcavePart], background: Background) -> None:
         """Use hulls until the parts are cut."""
         for key, part in todo.items():
             (self._failed if key in background.failed else self._stand_ins)[key] = hull_of_part(part)
