@@ -165,7 +165,8 @@ describe("the list", () => {
     );
     expect(store.unsupported.value[0]).toMatchObject({
       className: "jsk_rviz_plugins/OverlayText",
-      reason: "a plugin of jsk_rviz_plugins; rviz's, MoveIt's and octomap's displays are shown here",
+      reason:
+        "a plugin of jsk_rviz_plugins; only rviz's and MoveIt's displays and octomap's OccupancyGrid are shown here",
     });
     expect(store.save()).toContain("Font: large # ours");
   });
