@@ -6,8 +6,8 @@ import type { Octomap } from "../protocol/generated/ros_messages";
 import { EnumProperty, NumberProperty } from "../rviz/properties";
 import type { DisplayContext } from "./display";
 import { HistoryDisplay } from "./history_display";
-import { readOctomap } from "./moveit/octomap";
-import { COLORINGS, OCCUPIED, RENDERINGS, voxelBoxes } from "./moveit/voxel_boxes";
+import { readOctomap } from "./octomaps/octomap_reader";
+import { COLORINGS, OCCUPIED, RENDERINGS, voxelBoxes } from "./octomaps/voxel_boxes";
 import { register } from "./registry";
 
 const TYPES = ["octomap_msgs/Octomap"];

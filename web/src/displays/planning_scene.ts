@@ -22,7 +22,7 @@ import { positionsOf, rootOf } from "./moveit/robot_state";
 import type { RobotGhost } from "./moveit/robot_ghost";
 import { SceneContents } from "./moveit/scene_contents";
 import { SceneDrawing, type SceneLook } from "./moveit/scene_drawing";
-import { OCCUPIED, RENDERINGS } from "./moveit/voxel_boxes";
+import { OCCUPIED, RENDERINGS } from "./octomaps/voxel_boxes";
 import { register } from "./registry";
 import type { LinkProperty } from "./robot/link_view";
 

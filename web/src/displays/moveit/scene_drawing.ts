@@ -8,9 +8,9 @@ import type { CollisionObject, ColorRGBA } from "../../protocol/generated/ros_me
 import type { Rgb } from "../../rviz/properties";
 import type { Instances } from "../../shapes/instances";
 import { ObjectShapes } from "./object_shapes";
-import { readOctomap } from "./octomap";
+import { readOctomap } from "../octomaps/octomap_reader";
 import type { SceneContents } from "./scene_contents";
-import { voxelBoxes, type VoxelLook } from "./voxel_boxes";
+import { voxelBoxes, type VoxelLook } from "../octomaps/voxel_boxes";
 
 export interface SceneLook extends VoxelLook {
   readonly isShown: boolean;

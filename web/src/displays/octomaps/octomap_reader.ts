@@ -70,8 +70,7 @@ class Reader {
     if (children === 0) {
       this.add(x, y, z, size, odds);
       if (this.isColored) for (let i = 0; i < 3; i++) this.colors.push(this.view.getUint8(colorAt + i) / 255);
-    }
-    if (children !== 0 && depth === 0) throw new RangeError("a node below the leaves");
+    } else if (depth === 0) throw new RangeError("a node below the leaves");
     for (let child = 0; child < 8; child++)
       if ((children & (1 << child)) !== 0) {
         const [cx, cy, cz] = middle(x, y, z, size, child);

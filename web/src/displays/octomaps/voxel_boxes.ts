@@ -4,7 +4,7 @@ import { Matrix4 } from "three";
 
 import { Instances } from "../../shapes/instances";
 import { BOX } from "../../shapes/solids";
-import type { Voxels } from "./octomap";
+import type { Voxels } from "./octomap_reader";
 
 /** Share of the hues that MoveIt uses for heights. */
 const HUES = 0.8;

@@ -1,8 +1,8 @@
 import { expect, test } from "vitest";
 
-import { readOctomap } from "../../../src/displays/moveit/octomap";
+import { readOctomap } from "../../../src/displays/octomaps/octomap_reader";
 import "../../../src/displays/all";
-import { FREE, OCCUPIED, voxelBoxes } from "../../../src/displays/moveit/voxel_boxes";
+import { FREE, OCCUPIED, voxelBoxes } from "../../../src/displays/octomaps/voxel_boxes";
 import { displayClass } from "../../../src/displays/registry";
 import type { Instances } from "../../../src/shapes/instances";
 import { fakes } from "../fakes";
