@@ -3,7 +3,7 @@
 A ratio is the median, over alternating pairs of runs, of Trundle's result over the peer's. Each row names its peer
 with the peer's options. Run it on an idle machine: other programs slow down both, but not equally.
 
-    python -m bench                 all benchmarks, about 50 minutes
+    python -m bench                 all benchmarks, more than an hour
     python -m bench step renderer   two benchmarks
 """
 
@@ -35,6 +35,7 @@ BENCHES = {
     "kinematics": "inverse kinematics of an arm",
     "commander": "start of a moveit_commander program",
     "navigation": "amcl and move_base in a house, twenty tours",
+    "localization": "amcl in that house, from wrong guesses and from none",
     "navigation_parts": "amcl, gmapping, costmaps and planners alone",
     "renderer": "pictures and scans against MuJoCo and PyBullet",
     "dataset": "labelled pictures",

@@ -103,13 +103,8 @@ def drive(first: int, *, planner: str = "dwa", is_worse: bool = False, count: in
         out = folder / "goals.json"
         tags = f"<goals>{json.dumps(goals)}</goals><out>{out}</out>"
         tags = f'<plugin name="goals" filename="libsend_goals.so">{tags}</plugin>'
-        description = (HOUSE / "urdf/housebot.urdf").read_text()
-        if is_worse:
-            description = description.replace("<odometryTopic>odom<", "<odometryTopic>wheel_odom<")
-            description = description.replace("<publishOdomTF>true<", "<publishOdomTF>false<")
-            tags += '<plugin name="worse" filename="libworse_odometry.so"/>'
         nodes = _NODES.format(start=_start_arguments(first), planner=planner)
-        cpu_s = _launch(folder, first, description, tags, nodes, _LIMIT_S)
+        cpu_s = launch(folder, first, housebot(tags, is_worse=is_worse), nodes, _LIMIT_S)
         return Tour(goals=_judged(json.loads(out.read_text()), folder), cpu_s=cpu_s)
 
 
@@ -118,12 +113,30 @@ def _start_arguments(first: int) -> str:
     return "".join(f'<arg name="{name}" value="{value}"/>' for name, value in values)
 
 
-def _launch(folder: Path, first: int, description: str, tags: str, nodes: str, limit_s: int) -> float:
-    """Launch the house with a robot at a goal, flat out; return the CPU time [s]."""
-    urdf, launch = folder / "housebot.urdf", folder / "tour.launch"
-    urdf.write_text(description.replace("</robot>", f"<gazebo>{tags}</gazebo></robot>"))
-    launch.write_text(_LAUNCH.format(start=_start_arguments(first), urdf=urdf, nodes=nodes))
-    command = [sys.executable, "-m", "trundle", "launch", "--port", "0", str(launch), "--headless", "--speed", "max"]
+def housebot(tags: str, *, is_worse: bool) -> str:
+    """Return the robot's URDF with more plugins, and with the odometry made worse."""
+    description = (HOUSE / "urdf/housebot.urdf").read_text()
+    if is_worse:
+        description = description.replace("<odometryTopic>odom<", "<odometryTopic>wheel_odom<")
+        description = description.replace("<publishOdomTF>true<", "<publishOdomTF>false<")
+        tags += '<plugin name="worse" filename="libworse_odometry.so"/>'
+    return description.replace("</robot>", f"<gazebo>{tags}</gazebo></robot>")
+
+
+def launch(folder: Path, first: int, description: str, nodes: str, limit_s: int) -> float:
+    """Launch the house with a robot at a goal, flat out; return the CPU time [s].
+
+    Args:
+        folder: for the files of the run.
+        first: number of the goal at which the robot begins.
+        description: URDF of the robot.
+        nodes: elements of the launch file.
+        limit_s: longest time [s of the simulation].
+    """
+    urdf, file = folder / "housebot.urdf", folder / "tour.launch"
+    urdf.write_text(description)
+    file.write_text(_LAUNCH.format(start=_start_arguments(first), urdf=urdf, nodes=nodes))
+    command = [sys.executable, "-m", "trundle", "launch", "--port", "0", str(file), "--headless", "--speed", "max"]
     variables = {"ROS_PACKAGE_PATH": str(HOUSE), "TRUNDLE_PLUGIN_PATH": str(_PLUGINS), "ROS_HOME": str(folder)}
     before = os.times()
     quiet: dict[str, Any] = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
@@ -162,9 +175,8 @@ def _clearance_m(boxes: Sequence[Sequence[float]], x: float, y: float) -> float:
 def _simulation_share() -> float:
     """Return the CPU time of a second of the simulation alone, with the start of the process."""
     tag = '<plugin name="circles" filename="libdrive_in_circles.so"/>'
-    description = (HOUSE / "urdf/housebot.urdf").read_text()
     with tempfile.TemporaryDirectory() as name:
-        return _launch(Path(name), 9, description, tag, "", _BASELINE_S) / _BASELINE_S
+        return launch(Path(name), 9, housebot(tag, is_worse=False), "", _BASELINE_S) / _BASELINE_S
 
 
 def run() -> list[Row]:
