@@ -112,6 +112,20 @@ class RvizVisualTools {
   bool publishText(const geometry_msgs::Pose& pose, const std::string& text, Colors color,
                    const geometry_msgs::Vector3 scale, bool static_id = true);
 
+  /** Poses of programs for Kinetic and before. */
+  template <typename... Rest>
+  bool publishText(const Eigen::Affine3d& pose, const std::string& text, Rest... rest) {
+    return publishText(Eigen::Isometry3d(pose.matrix()), text, rest...);
+  }
+  template <typename... Rest>
+  bool publishAxis(const Eigen::Affine3d& pose, Rest... rest) {
+    return publishAxis(Eigen::Isometry3d(pose.matrix()), rest...);
+  }
+  template <typename... Rest>
+  bool publishAxisLabeled(const Eigen::Affine3d& pose, const std::string& label, Rest... rest) {
+    return publishAxisLabeled(Eigen::Isometry3d(pose.matrix()), label, rest...);
+  }
+
   bool publishAxis(const Eigen::Isometry3d& pose, Scales scale = MEDIUM, const std::string& ns = "Axis") {
     return publishAxis(convertPose(pose), scale, ns);
   }

@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   visual_tools.deleteAllMarkers();
   visual_tools.loadRemoteControl();
   const moveit::core::JointModelGroup* arm = visual_tools.getRobotModel()->getJointModelGroup("arm");
-  Eigen::Isometry3d text_pose = Eigen::Isometry3d::Identity();
+  Eigen::Affine3d text_pose = Eigen::Affine3d::Identity();
   text_pose.translation().z() = 1.5;
   visual_tools.publishText(text_pose, "Way of the tip", rvt::WHITE, rvt::XLARGE);
   visual_tools.publishAxisLabeled(visual_tools.getSharedRobotState()->getGlobalLinkTransform("l6"), "tip");
