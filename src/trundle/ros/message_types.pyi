@@ -54,6 +54,13 @@ class control_msgs:
         velocity: float
         acceleration: float
 
+    class PointHeadGoal(TypedMessage, Protocol):
+        target: geometry_msgs.PointStamped
+        pointing_axis: geometry_msgs.Vector3
+        pointing_frame: str
+        min_duration: Time
+        max_velocity: float
+
     class QueryTrajectoryStateRequest(TypedMessage, Protocol):
         time: Time
 
@@ -263,6 +270,10 @@ class geometry_msgs:
         x: float
         y: float
         z: float
+
+    class PointStamped(TypedMessage, Protocol):
+        header: std_msgs.Header
+        point: geometry_msgs.Point
 
     class Pose(TypedMessage, Protocol):
         position: geometry_msgs.Point

@@ -45,6 +45,7 @@ BUILTIN: dict[str, str] = {
     "libWheelSlipPlugin.so": "trundle.gazebo.plugins.gazebo.wheel_slip:WheelSlip",
     "libWheelTrackedVehiclePlugin.so": "trundle.gazebo.plugins.gazebo.wheel_tracked_vehicle:WheelTrackedVehicle",
     "libWindPlugin.so": "trundle.gazebo.plugins.gazebo.wind:Wind",
+    "libfetch_gazebo_plugin.so": "trundle.gazebo.plugins.fetch:FetchGazebo",
     "libgazebo_grasp_fix.so": "trundle.gazebo.plugins.grasp_fix:GraspFix",
     "libgazebo_mimic_joint_plugin.so": "trundle.gazebo.plugins.mimic_joint:MimicJoint",
     "libgazebo_ros_control.so": "trundle.gazebo.plugins.ros_control:GazeboRosControl",

@@ -73,8 +73,11 @@ class TrajectoryController(InStepController):
             node.subscribe(f"{context.name}/command", kind, self._on_command, queue_size=1),
             node.advertise_service(f"{context.name}/query_state", "control_msgs/QueryTrajectoryState", self._query),
         )
+        self._server = self._serve(context)
+
+    def _serve(self, context: ControllerContext) -> ActionServer:
         action = f"{context.name}/follow_joint_trajectory"
-        self._server = ActionServer(node, action, "control_msgs/FollowJointTrajectory", self._on_goal, concurrent=True)
+        return ActionServer(context.node, action, "control_msgs/FollowJointTrajectory", self._on_goal, concurrent=True)
 
     @classmethod
     def create(cls, context: ControllerContext) -> Self:
@@ -102,7 +105,7 @@ class TrajectoryController(InStepController):
         """Settle the action's goal, and publish when due."""
         self.finish_stride()
         if self._settle_goal is not None and self._monitors.due(time_ns):
-            self._server.publish_feedback(self._state_fields())
+            self._server.publish_feedback(self._feedback_fields())
         self._states.skip(time_ns, dt)
         if self._states.due(time_ns) and self._state.has_subscribers:
             self._state.publish(self._state_fields())
@@ -241,6 +244,9 @@ class TrajectoryController(InStepController):
             settle, self._settle_goal = self._settle_goal, None
             self._law.watches = False
             settle(_action_result(status, code, text))
+
+    def _feedback_fields(self) -> dict[str, Any]:
+        return self._state_fields()
 
     def _state_fields(self) -> dict[str, Any]:
         """Return the fields of JointTrajectoryControllerState and of the feedback; times are the first joint's."""
