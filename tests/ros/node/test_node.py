@@ -26,6 +26,7 @@ from trundle.ros import (
     follow_time,
     probe_service,
 )
+from trundle.ros.transport.tcpros import FrameProtocol
 from trundle.ros.transport.unix_sockets import unix_address
 
 STRING = "std_msgs/String"
@@ -112,6 +113,36 @@ def test_a_new_subscriber_gets_the_latched_message(graph: Any, pair: tuple[Any, 
     got: list[str] = []
     listener.subscribe("map", STRING, lambda m: got.append(m.data))
     graph.until(lambda: got == ["the map"])
+
+
+@pytest.mark.parametrize("others", [0, 1])
+def test_what_a_new_subscriber_causes_to_be_published_reaches_it(
+    graph: Any, far: Any, monkeypatch: pytest.MonkeyPatch, others: int
+) -> None:
+    """An action's client sends its goal as soon as it is connected; the result must not be lost."""
+    publisher = graph.node("talker").advertise("result", STRING)
+    for number in range(others):
+        far.node(f"other_{number}").subscribe("result", STRING, lambda _: None)
+    graph.until(lambda: publisher.subscribers == others)
+    send_header = FrameProtocol.send_header
+    is_answered = threading.Event()
+
+    def send_and_publish(link: FrameProtocol, fields: dict[str, str]) -> None:
+        send_header(link, fields)
+        if fields["callerid"] == "/talker":
+            server = threading.Thread(target=publisher.publish, args=({"data": "done"},))
+            server.start()
+            server.join()
+            is_answered.set()
+
+    monkeypatch.setattr(FrameProtocol, "send_header", send_and_publish)
+    got: list[str] = []
+    far.node("client").subscribe("result", STRING, lambda m: got.append(m.data))
+    assert is_answered.wait(PATIENCE_S)
+    graph.until(lambda: publisher.subscribers == others + 1)
+    publisher.publish({"data": "end"})
+    graph.until(lambda: got[-1:] == ["end"])
+    assert got == ["done", "end"]
 
 
 def test_header_sequence_numbers_are_filled_in(graph: Any, pair: tuple[Any, Any]) -> None:

@@ -183,14 +183,18 @@ class Publisher:
             return
         if header.get("tcp_nodelay", "0").strip() == "1":
             link.set_nodelay()
-        link.send_header(self.header_fields())
         with self._send_lock:
+            # From here on, messages wait for the loop: the peer may act on the header before it is counted.
+            self._send_directly_to(())
+            self._subscriber_count += 1
+            link.send_header(self.header_fields())
             self._subscriber_links.remote[link] = peer
             self._update_subscribers()
             for message in self._latched_messages():
                 if (framed := self._framed(message)) is not None:
                     link.out.send([framed], self._queue_size)
-        self._count_subscribers()
+        if self._on_connect is not None:
+            self._on_connect(self)
 
     def header_fields(self) -> dict[str, str]:
         """Fields of the connection header that subscribers get."""
@@ -267,7 +271,11 @@ class Publisher:
 
     def _update_subscribers(self) -> None:
         local, remote = self._subscriber_links.local, self._subscriber_links.remote
-        self._direct = () if local else tuple(link.out for link in remote)
+        self._send_directly_to(() if local else tuple(link.out for link in remote))
+
+    def _send_directly_to(self, outs: tuple[SendQueue, ...]) -> None:
+        """Set the queues that publishing threads write; none: the loop sends."""
+        self._direct = outs
 
     def _count_subscribers(self) -> None:
         self._update_subscribers()

@@ -12,6 +12,7 @@ from trundle.ros.node.local_graph import LocalSubscriber
 from trundle.ros.node.publisher import Publisher as GraphPublisher
 from trundle.ros.rospy.message_methods import codec, is_plain
 from trundle.ros.transport.framing import Pieces
+from trundle.ros.transport.send_queue import SendQueue
 from trundle.ros.transport.tcpros import FrameProtocol
 
 from . import core, graph
@@ -265,11 +266,11 @@ class FramePublisher(GraphPublisher):
         super().detach(subscriber)
         self._publication.disconnected()
 
-    def _update_subscribers(self) -> None:
-        super()._update_subscribers()
+    def _send_directly_to(self, outs: tuple[SendQueue, ...]) -> None:
+        super()._send_directly_to(outs)
         sender = self._publication.sender
         sender.is_active = False
-        sender.sockets = [out.direct for out in self._direct]
+        sender.sockets = [out.direct for out in outs]
 
     def _checked(self, message: Any) -> Any:
         return message
