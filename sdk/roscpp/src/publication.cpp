@@ -64,6 +64,7 @@ void Publication::publish(const boost::shared_ptr<Callbacks>& publisher,
     publisher->last = message;
     publisher->last.message.reset();  // the program may change the object
     publisher->last.type_info = nullptr;
+    links = links_;  // whoever connects from here on gets the message as the last one
   }
   for (const auto& link : links) link->send(message);
 }
@@ -93,14 +94,18 @@ void Publication::removeCallbacks(const boost::shared_ptr<Callbacks>& callbacks)
     callbacks->queue->removeByID(reinterpret_cast<uint64_t>(callbacks.get()));
 }
 
-void Publication::addLink(const boost::shared_ptr<SubscriberLink>& link) {
+void Publication::addLink(const boost::shared_ptr<SubscriberLink>& link, const std::function<void()>& send_header) {
   std::vector<boost::shared_ptr<Callbacks>> callbacks;
   {
+    // Locked while the header is sent: what the peer's answer makes other threads publish has to reach it.
     const std::lock_guard<std::mutex> lock(mutex_);
+    if (send_header) send_header();
     links_.push_back(link);
     callbacks = callbacks_;
+    for (const auto& entry : callbacks_)
+      if (link->is_remote && entry->last.buf) link->send(entry->last);
   }
-  for (const SerializedMessage& last : latched()) link->send(last);
+  for (const SerializedMessage& last : link->is_remote ? std::vector<SerializedMessage>() : latched()) link->send(last);
   for (const auto& entry : callbacks) notify(entry, link, true);
 }
 

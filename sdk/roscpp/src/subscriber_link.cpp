@@ -98,10 +98,10 @@ bool acceptSubscriber(const std::shared_ptr<net::FrameConnection>& connection, c
     connection->close(true);
     return true;
   }
-  connection->send(net::encodeHeader(publicationHeader(*publication)));
   connection->max_frame = 0;  // after its header, a subscriber sends nothing
   connection->on_frame = nullptr;
-  publication->addLink(makeLink(publication, header, connection, "TCPROS"));
+  const std::vector<uint8_t> own_header = net::encodeHeader(publicationHeader(*publication));
+  publication->addLink(makeLink(publication, header, connection, "TCPROS"), [&] { connection->send(own_header); });
   return true;
 }
 

@@ -2,6 +2,7 @@
 
 #include <boost/shared_ptr.hpp>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -66,7 +67,9 @@ class Publication {
                SerializedMessage& message);
   void addCallbacks(const boost::shared_ptr<Callbacks>& callbacks);
   void removeCallbacks(const boost::shared_ptr<Callbacks>& callbacks);
-  void addLink(const boost::shared_ptr<SubscriberLink>& link);
+  /** Add a subscriber, which gets the header first, if there is one, then the last messages of latched publishers. */
+  void addLink(const boost::shared_ptr<SubscriberLink>& link,
+               const std::function<void()>& send_header = std::function<void()>());
   void removeLink(const boost::shared_ptr<SubscriberLink>& link);
   void closeLinks();
   /** True if one of the publishers is latched. */

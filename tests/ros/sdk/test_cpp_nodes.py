@@ -5,6 +5,7 @@ import re
 import shutil
 import signal
 import socket
+import struct
 import subprocess
 import sys
 from contextlib import suppress
@@ -17,6 +18,7 @@ from tests.ros.sdk.hostile_peers import attack, listening_ports, request
 
 from trundle.ros import Messages
 from trundle.ros.sdk import Headers, Kit, PackageBuilder, find_toolchain, kit_sources
+from trundle.ros.xmlrpc.rpc_client import call_value
 
 pytestmark = pytest.mark.slow
 _SANITIZERS = "-fsanitize=address,undefined -fno-sanitize-recover=all -O1 -g1"
@@ -97,6 +99,26 @@ def test_a_program_answers_the_request_to_shut_down(running: Running, graph: Gra
 
     assert re.search(r"asked: .+; latched 1 0, readers 1$", output, re.MULTILINE), output
     assert output.rstrip().endswith("bye")
+
+
+def test_a_new_subscriber_gets_each_message_after_the_latched_one_once(running: Running, graph: Graph) -> None:
+    running.start("latched")
+    master = graph.core.uri
+    fields = ("topic=/numbers", "md5sum=304a39449588c7f8ce2df6e8001c5fce", "type=std_msgs/UInt32", "callerid=/peer")
+    packed = b"".join(struct.pack("<I", len(field)) + field.encode() for field in fields)
+    until(lambda: ["/numbers", ["/latched"]] in graph.loop.run(call_value(master, "getSystemState", "/peer"))[0])
+    uri = graph.loop.run(call_value(master, "lookupNode", "/peer", "/latched"))
+    address = graph.loop.run(call_value(uri, "requestTopic", "/peer", "/numbers", [["TCPROS"]]))[1:]
+
+    def first_numbers() -> list[int]:
+        with socket.create_connection(address) as peer, peer.makefile("rb") as stream:
+            peer.sendall(struct.pack("<I", len(packed)) + packed)
+            stream.read(*struct.unpack("<I", stream.read(4)))
+            return [number for (number,) in struct.iter_unpack("<4xI", stream.read(5 * 8))]
+
+    for _ in range(300):
+        first = first_numbers()
+        assert first == list(range(first[0], first[0] + 5))
 
 
 def test_hostile_peers_do_not_end_a_node(running: Running, graph: Graph) -> None:
