@@ -63,7 +63,7 @@ class SimpleActionClient {
       const std::lock_guard<std::mutex> lock(mutex_);
       id_ = message.goal_id.id;
       state_ = SimpleClientGoalState(SimpleClientGoalState::PENDING);
-      is_known_ = false;
+      must_be_listed_ = false;
       result_message_.reset();
       done_cb_ = done_cb;
       active_cb_ = active_cb;
@@ -157,11 +157,13 @@ class SimpleActionClient {
       bool is_listed = false;
       for (const actionlib_msgs::GoalStatus& goal : message->status_list) {
         if (goal.goal_id.id != id_) continue;
-        is_listed = is_known_ = true;
+        is_listed = true;
+        SimpleClientGoalState::StateEnum end;
+        must_be_listed_ = !terminalState(goal.status, end);
         if (goal.status != actionlib_msgs::GoalStatus::PENDING && goal.status != actionlib_msgs::GoalStatus::RECALLING)
           active = setActive();
       }
-      if (!is_listed && is_known_) {  // a new server does not know the goal
+      if (!is_listed && must_be_listed_) {  // a new server does not know the goal
         state_ = SimpleClientGoalState(SimpleClientGoalState::LOST);
         lost = done_cb_;
         is_lost = true;
@@ -224,7 +226,9 @@ class SimpleActionClient {
   mutable std::mutex mutex_;
   std::string id_;
   SimpleClientGoalState state_ = SimpleClientGoalState(SimpleClientGoalState::LOST);
-  bool has_status_message_ = false, is_known_ = false;
+  bool has_status_message_ = false;
+  /** True if the goal is lost once the server does not list it; its result may come later than that. */
+  bool must_be_listed_ = false;
   ActionResultConstPtr result_message_;
   SimpleDoneCallback done_cb_;
   SimpleActiveCallback active_cb_;

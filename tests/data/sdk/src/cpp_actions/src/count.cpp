@@ -8,6 +8,7 @@
 #include <ros/ros.h>
 
 #include <iostream>
+#include <mutex>
 
 class Counter {
  public:
@@ -62,6 +63,43 @@ void onDone(const actionlib::SimpleClientGoalState& state, const cpp_actions::Co
 void onActive() { ++active; }
 void onFeedback(const cpp_actions::CountFeedbackConstPtr& feedback) { feedbacks += feedback->sequence.size() > 0; }
 
+void ignoreCancel(const actionlib_msgs::GoalIDConstPtr&) {}
+
+/** The result may come when the server has ceased to list the goal. */
+void checkLateResult() {
+  ros::NodeHandle node("late");
+  ros::Publisher status = node.advertise<actionlib_msgs::GoalStatusArray>("status", 10);
+  ros::Publisher feedback = node.advertise<cpp_actions::CountActionFeedback>("feedback", 10);
+  ros::Publisher results = node.advertise<cpp_actions::CountActionResult>("result", 10);
+  std::mutex mutex;
+  cpp_actions::CountActionResult ended;
+  ros::Subscriber cancels = node.subscribe("cancel", 10, &ignoreCancel);
+  ros::Subscriber goals = node.subscribe<cpp_actions::CountActionGoal>(
+      "goal", 10, [&](const cpp_actions::CountActionGoalConstPtr& goal) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        ended.status.goal_id = goal->goal_id;
+      });
+  const auto isSent = [&] {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return !ended.status.goal_id.id.empty();
+  };
+  Client client("late");
+  while (!client.waitForServer(ros::Duration(0.1))) status.publish(actionlib_msgs::GoalStatusArray());
+  client.sendGoal(cpp_actions::CountGoal());
+  while (!isSent()) ros::WallDuration(0.01).sleep();
+  actionlib_msgs::GoalStatusArray listed;
+  listed.status_list.assign(1, ended.status);
+  listed.status_list[0].status = actionlib_msgs::GoalStatus::ACTIVE;
+  status.publish(listed);
+  listed.status_list[0].status = ended.status.status = actionlib_msgs::GoalStatus::SUCCEEDED;
+  status.publish(listed);
+  status.publish(actionlib_msgs::GoalStatusArray());
+  CHECK(!client.waitForResult(ros::Duration(0.3)));
+  results.publish(ended);
+  CHECK(client.waitForResult(ros::Duration(30.0)));
+  CHECK(client.getState() == actionlib::SimpleClientGoalState::SUCCEEDED);
+}
+
 void check() {
   Client client("count", true);
   CHECK(client.waitForServer(ros::Duration(30.0)));
@@ -107,6 +145,7 @@ void check() {
   CHECK(halves.call(goal, result) && result.sequence.at(0) == 4);
   goal.order = -1;
   CHECK(!halves.call(goal, result));
+  checkLateResult();
   Client none("nothing");
   CHECK(!none.waitForServer(ros::Duration(0.2)) && !none.isServerConnected());
 }
