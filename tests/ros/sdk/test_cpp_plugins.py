@@ -36,6 +36,14 @@ def test_plugins_are_created_and_faults_are_named(running: Running, workspace: P
     assert lines[-1] == "loads 001 9 100 no library of this class loader has the class shapes::Square"
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="libraries of macOS hide nothing")
+def test_a_library_of_plugins_may_hide_its_symbols(workspace: Path) -> None:
+    library = workspace / "devel/lib/libcpp_plugins.so"
+    listed = subprocess.run(["nm", "-D", "--defined-only", library], capture_output=True, text=True, check=True)
+
+    assert listed.stdout == ""
+
+
 def _heard(node: Node, topic: str) -> list[str]:
     heard: list[str] = []
     node.subscribe(topic, "std_msgs/String", lambda message: heard.append(message.data))
