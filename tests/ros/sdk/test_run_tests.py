@@ -22,7 +22,8 @@ if(CATKIN_ENABLE_TESTING)
   catkin_add_gtest(sums test/sums.cpp)
   target_link_libraries(sums ${catkin_LIBRARIES})
   catkin_add_nosetests(test/test_words.py)
-  add_executable(helper EXCLUDE_FROM_ALL test/sums.cpp)
+  add_executable(helper EXCLUDE_FROM_ALL test/helper.cpp)
+  add_rostest(test/helped.test DEPENDENCIES helper)
   add_library(part test/part.cpp)
 endif()
 """
@@ -60,6 +61,8 @@ def test_tests_run_and_a_failed_one_is_in_the_results(tmp_path: Path) -> None:
     (package / "CMakeLists.txt").write_text(_CMAKE)
     (package / "test/sums.cpp").write_text(_SUMS)
     (package / "test/part.cpp").write_text("int part() { return 1; }\n")
+    (package / "test/helper.cpp").write_text("int main() {}\n")
+    (package / "test/helped.test").write_text("<launch/>")
     (package / "test/test_words.py").write_text(_WORDS)
     environment = {name: value for name, value in os.environ.items() if name != "CMAKE_PREFIX_PATH"}
 
@@ -70,7 +73,7 @@ def test_tests_run_and_a_failed_one_is_in_the_results(tmp_path: Path) -> None:
 
     built = make()
     assert built.returncode == 0, built.stdout + built.stderr
-    assert "program helper (test/sums.cpp; src/tested/CMakeLists.txt:10): not in this build" in built.stdout
+    assert "program helper (test/helper.cpp; src/tested/CMakeLists.txt:10): not in this build" in built.stdout
     done = make("run_tests")
     output = done.stdout + done.stderr
 
@@ -78,3 +81,4 @@ def test_tests_run_and_a_failed_one_is_in_the_results(tmp_path: Path) -> None:
     assert (results.get("tests"), results.get("failures")) == ("3", "1"), output
     assert re.search(r"Ran 2 tests.*\n\nOK", output), output
     assert (tmp_path / "devel/lib/tested/sums").exists()
+    assert (tmp_path / "devel/lib/tested/helper").exists(), "a rostest needs it"
