@@ -40,6 +40,23 @@ def test_a_build_waits_for_another_that_compiles_the_kit(tmp_path: Path, capsys:
         assert waiting.result().folder == folder
 
 
+def test_the_kit_is_compiled_with_the_eigen_of_python(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its libraries of MoveIt are left out without Eigen; a kit without them is another kit."""
+    ran: list[str] = []
+
+    def run(command: list[object], _: object) -> tuple[int, list[str]]:
+        ran.extend(map(str, command))
+        return 0, []
+
+    monkeypatch.setattr("trundle.ros.sdk.kit._run", run)
+    without = Toolchain("c++", "1", "cmake", "ninja", None)
+    toolchain = without._replace(eigen=tmp_path / "cmeel.prefix")
+    kit = compiled_kit(toolchain, {"XDG_CACHE_HOME": str(tmp_path)})
+
+    assert f"-DTRUNDLE_EIGEN={tmp_path}/cmeel.prefix/include/eigen3" in ran
+    assert kit.folder.name != _digest(kit_sources(), without, "")
+
+
 def test_each_failed_target_has_its_first_error() -> None:
     text = """\
 [1/4] Building CXX object CMakeFiles/good.dir/src/good.cpp.o

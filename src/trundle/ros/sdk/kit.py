@@ -144,6 +144,7 @@ def _compile(
         *(f"-DCMAKE_CXX_COMPILER={toolchain.compiler}", f"-DCMAKE_CXX_FLAGS={flags}"),
         *(f"-DTRUNDLE_MESSAGES={folder / 'include'}", f"-DCMAKE_INSTALL_PREFIX={folder}"),
         *([] if toolchain.boost is None else [f"-DTRUNDLE_BOOST={toolchain.boost / 'include'}"]),
+        *([] if toolchain.eigen is None else [f"-DTRUNDLE_EIGEN={toolchain.eigen / 'include/eigen3'}"]),
         *zig_definitions(toolchain.compiler),
     ]
     install = [toolchain.ninja, "-C", build, *([] if jobs is None else ["-j", jobs]), "install"]
@@ -191,7 +192,8 @@ def _run(command: Sequence[str | Path], environment: Mapping[str, str]) -> tuple
 
 def _digest(sources: Path, toolchain: Toolchain, flags: str) -> str:
     """Return a name that depends on the sources, compiler and flags: each release of Trundle compiles its own kit."""
-    compiler = f"{toolchain.compiler}\n{toolchain.version}\n{toolchain.boost}\n{flags}\n{codec_headers()}"
+    libraries = f"{toolchain.boost}\n{toolchain.eigen}\n{codec_headers()}"
+    compiler = f"{toolchain.compiler}\n{toolchain.version}\n{flags}\n{libraries}"
     digest = hashlib.sha256(compiler.encode())
     generator = Path(message_header.__file__)
     for path in [generator, *sorted(path for path in sources.rglob("*") if path.is_file())]:
