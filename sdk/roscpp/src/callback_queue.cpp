@@ -9,9 +9,14 @@
 #include <set>
 #include <thread>
 
+#include "ros/console.h"
+
 namespace ros {
 
 namespace {
+
+/** Longest wait for a removed owner's call: that call may itself wait for whoever removes it. */
+constexpr std::chrono::seconds kPatience(5);
 
 /** Queues that were not destroyed. It is never destroyed itself: queues may be static. */
 struct Queues {
@@ -45,11 +50,15 @@ struct CallbackQueue::Implementation {
     CallbackInterfacePtr callback;
     uint64_t owner;
   };
+  struct RunningCall {
+    std::thread::id thread;
+    bool is_removed = false;
+  };
   std::mutex mutex;
   std::condition_variable changed;
   std::deque<Entry> entries;
-  /** Owner → threads that are running one of the owner's calls. */
-  std::multimap<uint64_t, std::thread::id> running;
+  /** Owner → its calls that run. */
+  std::multimap<uint64_t, RunningCall> running;
   bool is_enabled = true;
 
   /** Wait until some call is ready; false at the timeout, or once the queue is disabled. */
@@ -71,13 +80,13 @@ struct CallbackQueue::Implementation {
     if (ready == entries.end()) return entries.empty() ? Empty : CallbackQueue::TryAgain;
     const Entry entry = *ready;
     entries.erase(ready);
-    const auto running_call = running.emplace(entry.owner, std::this_thread::get_id());
+    const auto running_call = running.emplace(entry.owner, RunningCall{std::this_thread::get_id()});
     lock.unlock();
     CallbackInterface::CallResult result = CallbackInterface::Invalid;
     const auto finish = [&] {
       lock.lock();
+      if (result == CallbackInterface::TryAgain && !running_call->second.is_removed) entries.push_back(entry);
       running.erase(running_call);
-      if (result == CallbackInterface::TryAgain) entries.push_back(entry);
       changed.notify_all();
     };
     try {
@@ -118,12 +127,19 @@ void CallbackQueue::removeByID(uint64_t removal_id) {
     removed.push_back(*entry);
     entry = entries.erase(entry);
   }
-  const auto runsElsewhere = [&] {
-    const auto calls = impl_->running.equal_range(removal_id);
-    return std::any_of(calls.first, calls.second,
-                       [](const auto& call) { return call.second != std::this_thread::get_id(); });
+  const auto calls = impl_->running.equal_range(removal_id);
+  std::for_each(calls.first, calls.second, [](auto& call) { call.second.is_removed = true; });
+  const auto runsNoMore = [&] {
+    const auto left = impl_->running.equal_range(removal_id);
+    return std::none_of(left.first, left.second,
+                        [](const auto& call) { return call.second.thread != std::this_thread::get_id(); });
   };
-  while (runsElsewhere()) impl_->changed.wait(lock);
+  if (impl_->changed.wait_for(lock, kPatience, runsNoMore)) return;
+  lock.unlock();
+  ROS_WARN(
+      "A callback still runs %d s after its subscriber, service or timer was shut down, perhaps waiting for the "
+      "thread that did so; it goes on, and what it uses must outlive it",
+      static_cast<int>(kPatience.count()));
 }
 
 CallbackQueue::CallOneResult CallbackQueue::callOne(WallDuration timeout) {

@@ -8,7 +8,9 @@
 #include <std_msgs/String.h>
 #include <xmlrpcpp/XmlRpc.h>
 
+#include <atomic>
 #include <iostream>
+#include <thread>
 
 namespace {
 
@@ -363,6 +365,39 @@ void checkOtherClass(ros::NodeHandle& n) {
   CHECK(waitFor([&] { return heard == "sent as it is"; }));
 }
 
+/** A call that ends once it may, and would then be called again. */
+struct SlowCall : ros::CallbackInterface {
+  CallResult call() override {
+    has_begun = true;
+    while (!may_end) ros::WallDuration(0.001).sleep();
+    ++calls;
+    return TryAgain;
+  }
+  std::atomic<bool> has_begun{false}, may_end{false};
+  std::atomic<int> calls{0};
+};
+
+void checkRemovals() {
+  ros::CallbackQueue queue;
+  for (const bool waits_for_remover : {false, true}) {
+    const boost::shared_ptr<SlowCall> slow = boost::make_shared<SlowCall>();
+    queue.addCallback(slow, 1);
+    std::thread caller([&] { queue.callOne(); });
+    while (!slow->has_begun) ros::WallDuration(0.001).sleep();
+    queue.addCallback(slow, 1);
+    std::thread opener([&] {
+      ros::WallDuration(0.1).sleep();
+      if (!waits_for_remover) slow->may_end = true;
+    });
+    queue.removeByID(1);
+    CHECK(slow->calls == (waits_for_remover ? 0 : 1));
+    slow->may_end = true;
+    caller.join();
+    opener.join();
+    CHECK(queue.isEmpty() && slow->calls == 1);
+  }
+}
+
 void checkSpinners() {
   ros::CallbackQueue queue;
   ros::AsyncSpinner several(2, &queue), more(1, &queue);
@@ -428,6 +463,7 @@ void checkAll(int argc, char** argv) {
   checkCachedParents(n);
   checkOtherClass(n);
   checkSpinners();
+  checkRemovals();
   checkTimers(n);
   ROS_DEBUG("not shown");
   for (int i = 0; i < 3; ++i) ROS_WARN_ONCE("shown %s", "once");
