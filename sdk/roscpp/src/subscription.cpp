@@ -4,6 +4,7 @@
 #include "connection_header.h"
 #include "node.h"
 #include "ros/this_node.h"
+#include "topic_statistics.h"
 #include "topics.h"
 
 namespace ros {
@@ -60,17 +61,19 @@ class SubscriptionQueue : public CallbackInterface, public boost::enable_shared_
         limit_(options.queue_size),
         is_concurrent_(options.allow_concurrent_callbacks) {}
 
-  void push(const std::shared_ptr<LazyMessage>& message, const boost::shared_ptr<M_string>& header, bool copies) {
+  /** Add a message; true if the oldest one is dropped for it. */
+  bool push(const std::shared_ptr<LazyMessage>& message, const boost::shared_ptr<M_string>& header, bool copies) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (limit_ > 0 && items_.size() >= limit_) {
         items_.pop_front();
         items_.push_back({message, header, copies, nowOrZero()});
-        return;  // the queued call for the dropped message is now for this one
+        return true;  // the queued call for the dropped message is now for this one
       }
       items_.push_back({message, header, copies, nowOrZero()});
     }
     queue->addCallback(shared_from_this(), reinterpret_cast<uint64_t>(helper.get()));
+    return false;
   }
 
   bool ready() override {
@@ -167,14 +170,16 @@ void Subscription::handleMessage(const SerializedMessage& message, const boost::
   // Callbacks that may change the message get copies, unless there is one: it gets a publisher's own object, as in
   // roscpp.
   const bool copies = queues.size() > 1;
+  bool is_dropped = false;
   std::vector<std::pair<const std::type_info*, std::shared_ptr<LazyMessage>>> by_type;
   for (const auto& queue : queues) {
     const std::type_info& type = queue->helper->getTypeInfo();
     auto found = std::find_if(by_type.begin(), by_type.end(), [&](const auto& entry) { return *entry.first == type; });
     if (found == by_type.end())
       found = by_type.insert(found, {&type, std::make_shared<LazyMessage>(queue->helper, message, header)});
-    queue->push(found->second, header, copies);
+    is_dropped |= queue->push(found->second, header, copies);
   }
+  if (statistics_) statistics_->count(net::field(*header, "callerid"), message, is_dropped);
 }
 
 void Subscription::setPublishers(const std::vector<std::string>& uris, bool is_update) {

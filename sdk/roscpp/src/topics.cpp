@@ -6,6 +6,7 @@
 #include "ros/exceptions.h"
 #include "ros/init.h"
 #include "ros/this_node.h"
+#include "topic_statistics.h"
 
 namespace ros {
 namespace topics {
@@ -117,6 +118,7 @@ std::shared_ptr<Subscription> subscribe(const SubscribeOptions& options) {
   checkType(options.topic, options.datatype, options.md5sum, true);
   if (!options.helper)
     throw InvalidParameterException("the subscriber of topic [" + options.topic + "] has no callback");
+  const auto statistics = TopicStatistics::create(options.topic, options.helper->hasHeader());
   State& s = state();
   const std::lock_guard<std::mutex> registering(s.registering);
   std::shared_ptr<Subscription> subscription = find(s.subscriptions, options.topic);
@@ -129,7 +131,7 @@ std::shared_ptr<Subscription> subscribe(const SubscribeOptions& options) {
     subscription->addCallback(options);
     return subscription;
   }
-  subscription = std::make_shared<Subscription>(options);
+  subscription = std::make_shared<Subscription>(options, statistics);
   subscription->addCallback(options);
   std::shared_ptr<Publication> own;
   {

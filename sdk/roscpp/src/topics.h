@@ -54,9 +54,9 @@ class Publication {
   /** What one publisher of the topic has of its own. */
   struct Callbacks {
     SubscriberStatusCallback connect, disconnect;
-    CallbackQueueInterface* queue;
+    CallbackQueueInterface* queue = nullptr;
     boost::weak_ptr<void const> tracked;
-    bool is_tracked, is_latched;
+    bool is_tracked = false, is_latched = false;
     /** Last message of a latched publisher; it has no bytes before the first message. */
     SerializedMessage last;
   };
@@ -97,12 +97,17 @@ class Publication {
 
 /** Messages that wait for one callback. */
 class SubscriptionQueue;
+class TopicStatistics;
 
 /** A topic that this node subscribes to, by one or several subscribers. */
 class Subscription : public std::enable_shared_from_this<Subscription> {
  public:
-  explicit Subscription(const SubscribeOptions& options)
-      : topic(options.topic), datatype(options.datatype), md5sum_(options.md5sum), hints_(options.transport_hints) {}
+  Subscription(const SubscribeOptions& options, const std::shared_ptr<TopicStatistics>& statistics)
+      : topic(options.topic),
+        datatype(options.datatype),
+        md5sum_(options.md5sum),
+        hints_(options.transport_hints),
+        statistics_(statistics) {}
 
   /** Add a subscriber's callback; it gets the last messages of latched publishers. */
   void addCallback(const SubscribeOptions& options);
@@ -169,6 +174,8 @@ class Subscription : public std::enable_shared_from_this<Subscription> {
   bool is_closed_ = false, is_updated_ = false, has_no_delay_ = false;
   /** Of the first subscriber. */
   const TransportHints hints_;
+  /** Null where nobody asked for them. */
+  const std::shared_ptr<TopicStatistics> statistics_;
   std::weak_ptr<Publication> local_publication_;
   boost::shared_ptr<M_string> local_header_;
 };

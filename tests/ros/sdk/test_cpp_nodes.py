@@ -10,13 +10,14 @@ import subprocess
 import sys
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import pytest
 from tests.graphs import Graph, until
 from tests.ros.sdk.conftest import SOURCE, WAIT_S, Running, require_compiler
 from tests.ros.sdk.hostile_peers import attack, listening_ports, request
 
-from trundle.ros import Messages
+from trundle.ros import Messages, to_nsec
 from trundle.ros.sdk import Headers, Kit, PackageBuilder, find_toolchain, kit_sources
 from trundle.ros.xmlrpc.rpc_client import call_value
 
@@ -119,6 +120,25 @@ def test_a_new_subscriber_gets_each_message_after_the_latched_one_once(running: 
     for _ in range(300):
         first = first_numbers()
         assert first == list(range(first[0], first[0] + 5))
+
+
+def test_statistics_of_topics_are_published_where_the_parameter_says_so(running: Running, graph: Graph) -> None:
+    node = graph.node("tester")
+    graph.loop.run(node.params.set("/enable_statistics", True))
+    published: list[Any] = []
+    node.subscribe("/statistics", "rosgraph_msgs/TopicStatistics", published.append)
+    running.start("add_two_ints_server")
+    running.start("talker", "chatter:=words")
+    until(lambda: len(published) > 1)
+
+    latest = published[-1]
+    assert (latest.topic, latest.node_pub, latest.node_sub) == ("/words", "/talker", "/add_two_ints_server")
+    assert latest.delivered_msgs > 1
+    assert latest.traffic >= latest.delivered_msgs * len("....hello world 0")
+    window_ns = to_nsec(latest.window_stop) - to_nsec(latest.window_start)
+    assert 0 < to_nsec(latest.period_mean) * (latest.delivered_msgs - 1) <= window_ns + 1000
+    assert to_nsec(latest.period_mean) <= to_nsec(latest.period_max)
+    assert to_nsec(latest.stamp_age_max) == 0, "its messages have no header"
 
 
 def test_hostile_peers_do_not_end_a_node(running: Running, graph: Graph) -> None:
