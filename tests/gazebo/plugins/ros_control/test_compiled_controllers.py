@@ -3,7 +3,6 @@
 import math
 import os
 import shutil
-import socket
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -12,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.graphs import PATIENCE_S, running_graph, until
+from tests.graphs import PATIENCE_S, free_port, running_graph, until
 
 from trundle.base.diagnostics import UsageError
 from trundle.ros import GraphLoop, Message, Node
@@ -100,9 +99,7 @@ class Client:
 
 @contextmanager
 def launched(folder: Path, workspace: Path, kind: str) -> Iterator[tuple[Client, "subprocess.Popen[str]"]]:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        uri = f"http://127.0.0.1:{probe.getsockname()[1]}"
+    uri = f"http://127.0.0.1:{free_port()}"
     (folder / "arm.urdf").write_text(_ARM.format(kind=kind))
     (folder / "arm.launch").write_text(_LAUNCH)
     variables = {"ROS_MASTER_URI": uri, "ROS_PACKAGE_PATH": str(workspace / "src"), "PYTHONUNBUFFERED": "1"}
