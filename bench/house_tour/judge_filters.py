@@ -23,7 +23,7 @@ _SPACING_M = 0.9
 """Way between the starts of two filters."""
 _OFFSET_M, _OFFSET_RAD = 0.5, math.radians(20)
 _VARIANCES = {0: 0.25, 7: 0.25, 35: (math.pi / 12) ** 2}
-"""Of the guesses' covariance, by index [m², rad²]."""
+"""Index in a guess's covariance → variance [m², rad²]."""
 
 
 @dataclass(slots=True)

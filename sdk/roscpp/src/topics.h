@@ -174,7 +174,7 @@ class Subscription : public std::enable_shared_from_this<Subscription> {
   bool is_closed_ = false, is_updated_ = false, has_no_delay_ = false;
   /** Of the first subscriber. */
   const TransportHints hints_;
-  /** Null where nobody asked for them. */
+  /** Statistics of its messages; null without the parameter /enable_statistics. */
   const std::shared_ptr<TopicStatistics> statistics_;
   std::weak_ptr<Publication> local_publication_;
   boost::shared_ptr<M_string> local_header_;

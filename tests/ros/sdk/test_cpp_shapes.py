@@ -93,7 +93,7 @@ def test_a_mesh_is_read(running: Running, tmp_path: Path, name: str, contents: s
 
 
 def test_a_mesh_is_read_from_memory_and_scaled(running: Running, tmp_path: Path) -> None:
-    """What it is, its name says, or else its first bytes."""
+    """The name of a file tells its format, or else its first bytes do."""
     files = [_written(tmp_path, name, data) for name, data in (("a", _binary_stl()), ("b", _obj()), ("c", _dae()))]
     hints = [f"wedge.stl:{files[0]}", f"obj:{files[1]}", *(f":{file}" for file in files)]
 

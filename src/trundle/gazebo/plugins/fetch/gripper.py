@@ -9,7 +9,7 @@ from .trajectory import RequestStart
 _P, _D = 1000.0, 20.0
 """[N/m] and [N·s/m], of each finger."""
 _TOLERANCE, _STALL_NS, _STALL_SPEED = 0.002, 2_000_000_000, 0.00125
-"""Of both fingers together [m]; [ns]; of each finger [m/s]: 5 mm in 2 s for both, as in the original."""
+"""Tolerance of the fingers' distance [m]. A finger that is slower than this [m/s] for this time [ns] stalls."""
 
 
 class ParallelGripper(FingersController):

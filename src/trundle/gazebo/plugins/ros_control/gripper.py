@@ -35,7 +35,7 @@ class FingersController(InStepController):
         self.claims: dict[Interface | str, list[str]] = {fingers[0].interface: [finger.name for finger in fingers]}
         self.laws = tuple(laws)
         self._arrivals: list[bool | None] = [None] * len(laws)
-        """Of each finger: whether it arrived; None while it moves."""
+        """Whether each finger arrived; None while it moves."""
         self._is_running = False
         self._settle_goal: Callable[[ActionResult], None] | None = None
         self._server: ActionServer
