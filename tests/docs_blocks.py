@@ -20,7 +20,6 @@ import itertools
 import os
 import re
 import signal
-import socket
 import subprocess
 import sys
 import textwrap
@@ -33,6 +32,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import yaml
+from tests.graphs import free_port
 
 ROOT = Path(__file__).parents[1]
 _DOCS = sorted((ROOT / "docs").rglob("*.md"))
@@ -203,13 +203,10 @@ def _run_in_background(block: Block, page_folder: Folder, name: str) -> Iterator
 
 def _environment(folder: Path, commands: Path) -> dict[str, str]:
     """Return the environment of a user without ROS, with a home and a master's URI for the page."""
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
     variables = {key: value for key, value in os.environ.items() if not key.startswith(("ROS_", "GAZEBO_", "TRUNDLE_"))}
     return variables | {
         "HOME": str(folder),
         "PATH": f"{commands}{os.pathsep}{os.environ['PATH']}",
         "PYTHONUNBUFFERED": "1",
-        "ROS_MASTER_URI": f"http://127.0.0.1:{port}/",
+        "ROS_MASTER_URI": f"http://127.0.0.1:{free_port()}/",
     }

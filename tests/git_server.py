@@ -11,6 +11,7 @@ from pathlib import Path
 from time import sleep
 
 import pytest
+from tests.graphs import free_port
 
 _NOBODY = ("-c", "user.name=a", "-c", "user.email=a@b", "-c", "init.defaultBranch=main")
 
@@ -64,9 +65,7 @@ def git_server(folder: Path) -> Generator[GitServer]:
     if shutil.which("git") is None:
         pytest.skip("git is not installed")
     folder.mkdir(exist_ok=True)
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
+    port = free_port()
     words = ["git", "daemon", f"--base-path={folder}", "--export-all", "--listen=127.0.0.1", f"--port={port}"]
     daemon = subprocess.Popen([*words, "--reuseaddr", str(folder)], stderr=subprocess.PIPE, start_new_session=True)
     try:

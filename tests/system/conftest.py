@@ -3,7 +3,6 @@
 import contextlib
 import os
 import signal
-import socket
 import subprocess
 import sys
 import time
@@ -11,6 +10,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 import pytest
+from tests.graphs import free_port
 
 from trundle.ros import MasterProxy, MasterUnreachableError
 
@@ -39,11 +39,8 @@ class Running:
 @pytest.fixture
 def env(tmp_path: Path) -> dict[str, str]:
     """A user's environment without ROS variables, except for a master's URI with the test's port."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
     variables = {key: value for key, value in os.environ.items() if not key.startswith(("ROS_", "GAZEBO_", "TRUNDLE_"))}
-    return {**variables, "HOME": str(tmp_path), "ROS_MASTER_URI": f"http://127.0.0.1:{port}"}
+    return {**variables, "HOME": str(tmp_path), "ROS_MASTER_URI": f"http://127.0.0.1:{free_port()}"}
 
 
 @pytest.fixture

@@ -5,12 +5,12 @@ tests/ros/sdk has it with a compiler.
 
 import os
 import re
-import socket
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from tests.graphs import free_port
 
 from trundle.app.cli import main
 from trundle.ros.catkin import NewPackage, create_package, open_workspace
@@ -141,9 +141,7 @@ def test_a_node_compiled_by_debians_catkin_runs_in_a_launch(tmp_path: Path) -> N
         '<launch><node pkg="drive" type="drive" name="left" ns="r1" output="screen" required="true">'
         '<param name="speed" value="3"/></node></launch>'
     )
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        uri = f"http://127.0.0.1:{probe.getsockname()[1]}"
+    uri = f"http://127.0.0.1:{free_port()}"
     env = {"PATH": "/usr/bin:/bin", "HOME": str(tmp_path), "ROS_PACKAGE_PATH": str(package.parent)}
 
     def run(*words: str | Path) -> str:
