@@ -1,6 +1,7 @@
 """`trundle doctor` and roswtf: checks of the environment and faults of a running graph."""
 
 import json
+import os
 import socket
 from collections.abc import Iterator
 from pathlib import Path
@@ -31,8 +32,35 @@ def test_states_of_machine_checks() -> None:
     checks = {check.name: check for check in machine_checks({"PATH": "/nowhere", "TERM": "dumb"})}
 
     assert [checks[name].state for name in ("python", "trundle", "mujoco")] == ["ok"] * 3
-    assert (checks["compiler"].state, checks["browser"].state) == ("missing", "missing")
-    assert "C++ nodes and plugins cannot be compiled" in checks["compiler"].cost
+    assert checks["browser"].state == "missing"
+
+
+def _compiler(folder: Path, **environment: str) -> Check:
+    return next(check for check in machine_checks({"PATH": str(folder), **environment}) if check.name == "compiler")
+
+
+def test_without_a_compiler_it_is_said_how_to_get_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("importlib.util.find_spec", lambda _: None)  # nor has Python one
+
+    check = _compiler(tmp_path)
+
+    assert check.state == "missing"
+    assert "pip install 'trundle[cpp]'" in check.found
+    assert "C++ nodes and plugins cannot be compiled" in check.cost
+
+
+@pytest.mark.skipif(os.name != "posix", reason="the development kit is not for Windows")
+def test_the_compiler_is_named_with_its_release(tmp_path: Path) -> None:
+    for name in ("c++", "cmake", "ninja"):
+        (tmp_path / name).write_text("#!/bin/sh\necho release 7\necho and more\n")
+        (tmp_path / name).chmod(0o755)
+    header = tmp_path / "include/boost/shared_ptr.hpp"
+    header.parent.mkdir(parents=True)
+    header.touch()
+
+    check = _compiler(tmp_path, BOOST_ROOT=str(tmp_path))
+
+    assert (check.state, check.found) == ("ok", f"{tmp_path}/c++: release 7")
 
 
 def test_mujoco_and_mujoco_core_together_are_a_problem(monkeypatch: pytest.MonkeyPatch) -> None:

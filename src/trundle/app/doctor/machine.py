@@ -4,16 +4,17 @@ import os
 import platform
 import shutil
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
 
+from trundle.base.diagnostics import UsageError
+from trundle.ros.sdk import find_toolchain
 from trundle.sim.physics import NoGpuError, find_gpu
 
 from .check import Check
 
-_COMPILERS = ("c++", "g++", "clang++")
 _BROWSERS = ("chromium", "chromium-browser", "google-chrome", "firefox", "epiphany", "safari", "msedge")
 _BAD_MUJOCO = "4.0.0"
 """Version of MuJoCo whose sparse Newton factor is wrong."""
@@ -38,12 +39,7 @@ def machine_checks(environment: Mapping[str, str]) -> Iterator[Check]:
             yield Check(name=extra, state="missing", found="not installed", cost=cost)
     yield _gpu()
     path = environment.get("PATH", os.defpath)
-    yield _first(
-        "compiler",
-        _COMPILERS,
-        lambda name: shutil.which(name, path=path),
-        "C++ nodes and plugins cannot be compiled here; Python ones and those that come with Trundle need none",
-    )
+    yield _compiler(environment)
     yield _ros(environment)
     yield _browser(environment, path)
     yield _terminal(environment)
@@ -71,11 +67,14 @@ def _gpu() -> Check:
         return Check(name="gpu", state="missing", found="none for physics", cost=cost)
 
 
-def _first(name: str, candidates: tuple[str, ...], find: Callable[[str], str | None], cost: str) -> Check:
-    for candidate in candidates:
-        if (path := find(candidate)) is not None:
-            return Check(name=name, state="ok", found=path)
-    return Check(name=name, state="missing", found="none", cost=cost)
+def _compiler(environment: Mapping[str, str]) -> Check:
+    try:
+        toolchain = find_toolchain(environment)
+    except UsageError as error:
+        cost = "C++ nodes and plugins cannot be compiled here; Python ones and those that come with Trundle need none"
+        return Check(name="compiler", state="missing", found=str(error), cost=cost)
+    release = toolchain.version.partition("\n")[0]
+    return Check(name="compiler", state="ok", found=f"{toolchain.compiler}: {release}")
 
 
 def _ros(environment: Mapping[str, str]) -> Check:
@@ -88,7 +87,7 @@ def _ros(environment: Mapping[str, str]) -> Check:
     ]
     installed = shutil.which("rostopic", path=os.pathsep.join([*folders, "/opt/ros/noetic/bin"]))
     if installed is None:
-        cost = "compiled nodes of others do not run; trundle's commands and stand-ins need no ROS"
+        cost = "programs compiled for it do not run; C++ compiled here, trundle's commands and stand-ins need no ROS"
         return Check(name="ros", state="missing", found="not installed", cost=cost)
     return Check(name="ros", state="ok", found=f"{os.path.dirname(installed)}; its nodes and tools join the same graph")
 
