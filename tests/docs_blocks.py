@@ -203,7 +203,8 @@ def _run_in_background(block: Block, page_folder: Folder, name: str) -> Iterator
 
 def _environment(folder: Path, commands: Path) -> dict[str, str]:
     """Return the environment of a user without ROS, with a home and a master's URI for the page."""
-    variables = {key: value for key, value in os.environ.items() if not key.startswith(("ROS_", "GAZEBO_", "TRUNDLE_"))}
+    foreign = ("ROS_", "GAZEBO_", "TRUNDLE_", "PYTEST_ADDOPTS")
+    variables = {key: value for key, value in os.environ.items() if not key.startswith(foreign)}
     return variables | {
         "HOME": str(folder),
         "PATH": f"{commands}{os.pathsep}{os.environ['PATH']}",
