@@ -1,6 +1,7 @@
 """Poses in messages."""
 
 import math
+from collections.abc import Iterable
 from typing import Any
 
 from trundle.spatial import Pose, Vector3
@@ -21,9 +22,14 @@ def read_pose(message: Any) -> Pose:
     position: Vector3 = (message.position.x, message.position.y, message.position.z)
     q = message.orientation
     norm = math.hypot(q.w, q.x, q.y, q.z)
-    if not math.isfinite(norm) or norm < _MIN_NORM or not all(abs(value) <= _MAX_M for value in position):
+    if not math.isfinite(norm) or norm < _MIN_NORM or not is_place(position):
         raise ValueError("the pose has numbers that are not finite or beyond 1e9 m, or an orientation of zeros")
     return Pose(position, (q.w / norm, q.x / norm, q.y / norm, q.z / norm))
+
+
+def is_place(position: Iterable[float]) -> bool:
+    """True if all coordinates are finite and within 1e9 m."""
+    return all(abs(value) <= _MAX_M for value in position)
 
 
 def pose_fields(pose: Pose) -> dict[str, Any]:

@@ -13,6 +13,8 @@ from trundle.gazebo.nodes.rate import LogThrottle
 from trundle.ros import Node, TransformBuffer, TransformError, to_nsec
 from trundle.spatial import NS_PER_S, Pose, matrix_from_quaternion
 
+from ..scan_messages import read_beams
+
 if TYPE_CHECKING:
     from trundle.ros.message_types import sensor_msgs
 
@@ -148,11 +150,14 @@ class ObservationSource:
 
 
 def scan_points(scan: "sensor_msgs.LaserScan", *, inf_is_valid: bool) -> NDArray[np.float64]:
-    """Return the points (n, 3) of a scan in its frame [m]; `inf_is_valid`: empty rays end just before range_max."""
-    ranges = np.asarray(scan.ranges, dtype=np.float64)
+    """Return the points (n, 3) of a scan in its frame [m]; `inf_is_valid`: empty rays end just before range_max.
+
+    Raises:
+        ValueError: as `read_beams`.
+    """
+    ranges, angles = read_beams(scan)
     if inf_is_valid:
         ranges = np.where(ranges == math.inf, scan.range_max - 1e-4, ranges)
-    angles = scan.angle_min + np.arange(len(ranges)) * scan.angle_increment
     is_used = (ranges >= scan.range_min) & (ranges < scan.range_max)
     ranges, angles = ranges[is_used], angles[is_used]
     return np.stack([ranges * np.cos(angles), ranges * np.sin(angles), np.zeros(len(ranges))], axis=1)

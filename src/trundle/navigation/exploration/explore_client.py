@@ -8,6 +8,7 @@ import numpy as np
 from trundle.gazebo.nodes import NodeHost
 from trundle.ros import ActionClient, Node
 
+from ..pose_messages import is_place
 from .frontier import Point, is_inside
 
 _PERIOD_S = 0.1
@@ -46,8 +47,10 @@ class ExploreClient:
     def _on_click(self, message: Any) -> None:
         log, frame = self._node.log, message.header.frame_id
         point = (float(message.point.x), float(message.point.y))
-        if not all(map(math.isfinite, point)) or len(self._corners) >= _MAX_CORNERS:
-            log.error(f"a point is ignored: it is not finite, or the polygon has {_MAX_CORNERS} corners")
+        if not is_place(point) or len(self._corners) >= _MAX_CORNERS:
+            log.error(
+                f"a point is ignored: it is not finite or beyond 1e9 m, or the polygon has {_MAX_CORNERS} corners"
+            )
         elif self._is_closed:
             self._send(point, frame)
         elif not self._corners:

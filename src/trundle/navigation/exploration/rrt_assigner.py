@@ -13,6 +13,7 @@ from trundle.robots.parameters import ParamError
 from trundle.ros import ABORTED, SUCCEEDED, ActionClient, Node, TransformError, TransformListener
 from trundle.spatial import NS_PER_S
 
+from ..pose_messages import is_place
 from ..settings import read_settings
 from .frontier import Point
 from .map_listener import MapListener
@@ -129,7 +130,7 @@ class RrtAssigner:
 
     def _on_points(self, message: Any) -> None:
         points = [(float(point.x), float(point.y)) for point in message.points]
-        self._points = [point for point in points if all(map(math.isfinite, point))]
+        self._points = [point for point in points if is_place(point)]
 
     def _missing(self) -> str:
         """Return what there is none of yet; else update the robots' places."""

@@ -18,6 +18,7 @@ from trundle.robots.parameters import ParamError
 from trundle.ros import Node, TransformError, TransformListener
 from trundle.spatial import NS_PER_S
 
+from ..pose_messages import is_place
 from ..settings import read_settings
 from .frontier import Point
 from .map_listener import OCCUPIED, UNKNOWN, MapListener
@@ -86,8 +87,8 @@ class _RrtDetector:
         point = (float(message.point.x), float(message.point.y))
         if len(self._clicks) >= _CLICKS:
             return
-        if not all(map(math.isfinite, point)):
-            self._node.log.error("a clicked point is ignored: it is not finite")
+        if not is_place(point):
+            self._node.log.error("a clicked point is ignored: it is not finite or beyond 1e9 m")
             return
         self._clicks.append(point)
         self._show([{"x": x, "y": y} for x, y in self._clicks])

@@ -1,6 +1,5 @@
 """rrt_exploration/filter.py: makes few points of many."""
 
-import math
 from typing import Annotated, Any
 
 import numpy as np
@@ -13,6 +12,7 @@ from trundle.gazebo.nodes.rate import LogThrottle, Rate
 from trundle.robots.parameters import ParamError
 from trundle.ros import Node, TransformError, TransformListener
 
+from ..pose_messages import is_place
 from ..settings import read_settings
 from .frontier import Point
 from .map_listener import MapListener
@@ -118,7 +118,7 @@ class RrtFilter:
     def _on_point(self, message: Any) -> None:
         point = (float(message.point.x), float(message.point.y))
         moved = self._moved(point, message.header.frame_id.lstrip("/"), self._map.frame)
-        if moved is not None and all(map(math.isfinite, moved)) and len(self._points) < _MAX_POINTS:
+        if moved is not None and is_place(moved) and len(self._points) < _MAX_POINTS:
             self._points = np.vstack([self._points, moved])
 
     def _moved(self, point: Point, frame: str, to: str) -> Point | None:

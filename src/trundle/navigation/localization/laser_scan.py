@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from trundle.ros import TransformBuffer, TransformError, to_nsec
 from trundle.spatial import Pose
 
+from ..scan_messages import read_ranges
 from .amcl_settings import AmclSettings
 
 if TYPE_CHECKING:
@@ -58,7 +59,7 @@ class ScanReader:
         if not all(math.isfinite(number) for number in numbers) or range_max_m <= 0.0:
             self.fault = "its angles or ranges are not finite, or its maximum range is not positive"
             return None
-        ranges = np.array(scan.ranges, dtype=np.float64)
+        ranges = read_ranges(scan)
         ranges[ranges <= range_min_m] = range_max_m  # a range below the minimum means that nothing was measured
         first = _bearing(base_from_laser, scan.angle_min)
         second = _bearing(base_from_laser, scan.angle_min + scan.angle_increment)

@@ -14,7 +14,8 @@ from trundle.ros import Node, Transform, TransformBroadcaster, TransformError, t
 from trundle.spatial import Pose, transform_points
 
 from ..pose_messages import PlanarPose, from_planar, planar, pose_fields, read_pose
-from ..scan_queue import ScanQueue, beam_ends
+from ..scan_messages import beam_ends
+from ..scan_queue import ScanQueue
 from ..settings import read_settings
 from ..transform_filter import TransformFilter
 from . import _mapping

@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 from trundle.spatial import Pose, transform_points
 
+from ..scan_messages import read_beams
+
 if TYPE_CHECKING:
     from trundle.ros.message_types import sensor_msgs
-
-_MAX_BEAMS = 100_000
 
 
 class ScanPoints(NamedTuple):
@@ -44,13 +44,8 @@ def read_points(
     Raises:
         ValueError: its angles or bounds are not finite, there are too many beams, or nothing was measured.
     """
-    count = len(scan.ranges)
-    if count > _MAX_BEAMS:
-        raise ValueError(f"it has {count} beams, more than {_MAX_BEAMS}")
-    if not np.isfinite(scan.angle_min + scan.angle_increment + scan.range_min):
-        raise ValueError("its angles or the bounds of its ranges are not finite")
-    ranges = np.array(scan.ranges, dtype=np.float64)
-    angles = scan.angle_min + scan.angle_increment * np.arange(count, dtype=np.float64)
+    ranges, angles = read_beams(scan)
+    count = ranges.size
     limit = min(usable_range, float(scan.range_max)) if scan.range_max > 0.0 else usable_range
     is_measured = ranges >= max(scan.range_min, min_range)  # not of NaN
     is_hit = is_measured & (ranges < limit)

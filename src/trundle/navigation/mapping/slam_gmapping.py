@@ -16,6 +16,7 @@ from trundle.ros import Node, Transform, TransformBroadcaster, TransformError, t
 from trundle.spatial import NS_PER_S, Pose
 
 from ..pose_messages import PlanarPose, from_planar
+from ..scan_messages import read_ranges
 from ..transform_filter import TransformFilter
 from . import _mapping
 from .gmapping_settings import MapFrame, read_settings
@@ -90,7 +91,7 @@ class SlamGmapping:
 
     async def _process(self, scan: "sensor_msgs.LaserScan") -> None:
         settings, stamp_ns = self._settings, to_nsec(scan.header.stamp)
-        ranges = np.array(scan.ranges, dtype=np.float64)
+        ranges = read_ranges(scan)
         try:
             odom_from_laser = self._scans.buffer.lookup_transform(
                 settings.odom_frame, scan.header.frame_id, stamp_ns

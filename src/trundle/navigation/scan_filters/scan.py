@@ -58,6 +58,7 @@ class Scan:
         )
         if not math.isfinite(scan.angle_min + scan.angle_increment + scan.range_min) or math.isnan(scan.range_max):
             raise ValueError("its angles or the bounds of its ranges are not finite")
+        scan.ranges[np.isnan(scan.ranges)] = np.nan  # not a signaling one, of which NumPy warns
         return scan
 
     @property

@@ -12,7 +12,8 @@ from trundle.ros import Node, Transform, TransformBroadcaster, TransformError, t
 from trundle.spatial import NS_PER_S, Pose
 
 from ..pose_messages import from_planar, planar, pose_fields, read_pose
-from ..scan_queue import ScanQueue, beam_ends
+from ..scan_messages import beam_ends
+from ..scan_queue import ScanQueue
 from ..transform_filter import TransformFilter
 from . import _icp
 from .tracker import ScanTracker
