@@ -133,6 +133,17 @@ def test_obstacles_stay_until_the_costmaps_are_cleared(graph: Any) -> None:
     graph.until(lambda: not is_marked())
 
 
+def test_a_goal_latched_before_the_start_is_driven_to(graph: Any) -> None:
+    """As rostopic pub -1 latches it."""
+    graph.advertise("/move_base_simple/goal", "geometry_msgs/PoseStamped", latch=True).publish(stamped_pose(2.0, 1.0))
+    goals = graph.listen("/move_base/current_goal", "geometry_msgs/PoseStamped")
+
+    start(graph)
+
+    graph.until(lambda: goals)
+    assert goals[0].pose.position.x == pytest.approx(2.0)
+
+
 def test_recovery_behaviors_run_in_order_before_a_goal_is_given_up(graph: Any) -> None:
     start(graph, recovery_behavior_enabled=True, clearing_rotation_allowed=False)
     statuses = graph.listen("/move_base/recovery_status", "move_base_msgs/RecoveryStatus")

@@ -103,8 +103,9 @@ class MoveBase:
         node.advertise_service("~make_plan", "nav_msgs/GetPlan", self._on_make_plan)
         node.advertise_service("~clear_costmaps", "std_srvs/Empty", self._on_clear_costmaps)
         self._goals = node.advertise("move_base/goal", "move_base_msgs/MoveBaseActionGoal", queue_size=1)
-        node.subscribe("move_base_simple/goal", "geometry_msgs/PoseStamped", self._on_simple_goal, queue_size=1)
         self._server = ActionServer(node, "move_base", "move_base_msgs/MoveBase", self._execute)
+        # After the server, which would not hear of a goal that is latched there.
+        node.subscribe("move_base_simple/goal", "geometry_msgs/PoseStamped", self._on_simple_goal, queue_size=1)
         reconfigure(node, node.name, settings, lambda: None)
 
     def _drive(self, x: float, y: float, turn: float) -> None:

@@ -35,8 +35,9 @@ class LegacyRelay:
             return 1
         self._client = ActionClient(node, f"{base}/move_base", "mbf_msgs/MoveBase")
         self._goals = node.advertise("move_base/goal", "move_base_msgs/MoveBaseActionGoal", queue_size=1)
-        node.subscribe("move_base_simple/goal", "geometry_msgs/PoseStamped", self._on_goal, queue_size=1)
         self._server = ActionServer(node, "move_base", "move_base_msgs/MoveBase", self._execute)
+        # After the server, which would not hear of a goal that is latched there.
+        node.subscribe("move_base_simple/goal", "geometry_msgs/PoseStamped", self._on_goal, queue_size=1)
         await node.closed.wait()
         return 0
 
