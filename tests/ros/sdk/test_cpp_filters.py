@@ -12,8 +12,10 @@ from trundle.ros import Messages
 pytestmark = pytest.mark.slow
 
 
-def test_filters_make_the_sets_that_are_expected(running: Running) -> None:
-    process = running.start("sets", package="cpp_filters")
+@pytest.mark.parametrize("program", ["sets", "chains"])
+def test_a_programs_own_checks_pass(running: Running, program: str) -> None:
+    """Sets of messages, and chains of filters of values."""
+    process = running.start(program, package="cpp_filters")
     output, _ = process.communicate(timeout=WAIT_S)
 
     assert re.search(r"^\d\d checks, 0 failed$", output, re.MULTILINE), output

@@ -1,0 +1,3 @@
+#pragma once
+
+#include <filters/filter_base.hpp>

@@ -1,0 +1,3 @@
+#pragma once
+
+#include <filters/param_test.hpp>

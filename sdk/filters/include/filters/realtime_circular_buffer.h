@@ -1,0 +1,3 @@
+#pragma once
+
+#include <filters/realtime_circular_buffer.hpp>

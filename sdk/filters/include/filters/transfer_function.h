@@ -1,0 +1,3 @@
+#pragma once
+
+#include <filters/transfer_function.hpp>
