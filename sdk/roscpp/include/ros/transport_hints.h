@@ -1,5 +1,7 @@
 #pragma once
 
+#include <boost/lexical_cast.hpp>  // programs use it without including it
+
 #include "ros/common.h"
 
 namespace ros {

@@ -1,5 +1,7 @@
 #pragma once
 
+#define TF_SCALAR_H  // by which programs know that it is included
+
 #include <tf2/LinearMath/Scalar.h>
 
 typedef tf2Scalar tfScalar;

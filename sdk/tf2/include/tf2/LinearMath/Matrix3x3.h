@@ -1,5 +1,7 @@
 #pragma once
 
+#define TF2_MATRIX3x3_H  // by which programs know that it is included
+
 #include "tf2/LinearMath/Quaternion.h"
 #include "tf2/LinearMath/Vector3.h"
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#define TF2_SCALAR_H  // by which programs know that it is included
+
 #include <cfloat>
 #include <cmath>
 #include <cstdlib>
