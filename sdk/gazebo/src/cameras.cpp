@@ -17,7 +17,8 @@ void Camera::Read(const std::string& name, const sdf::ElementPtr& camera, double
     width_ = image->Get<unsigned int>("width", 320).first;
     height_ = image->Get<unsigned int>("height", 240).first;
     const std::string format = image->Get<std::string>("format", "R8G8B8").first;
-    if (format == "L8" || format == "L_INT8") format_ = "L8", depth_ = 1;
+    if (format == "L8" || format == "L_INT8") depth_ = 1;
+    if (depth_ == 1 || format == "RGB_INT8") format_ = format;
   }
   if (const sdf::ElementPtr lens = camera->FindElement("distortion")) {
     distortion_ = DistortionPtr(new Distortion);

@@ -19,14 +19,25 @@ class Sense : public SensorPlugin {
   void Load(sensors::SensorPtr sensor, sdf::ElementPtr sdf) override {
     sensor_ = sensor;
     word_ = sdf->Get<std::string>("word");
-    if (auto camera = std::dynamic_pointer_cast<sensors::CameraSensor>(sensor))
+    if (auto camera = std::dynamic_pointer_cast<sensors::CameraSensor>(sensor)) {
+      node_ = transport::NodePtr(new transport::Node());
+      node_->Init(sensor->WorldName());
+      sent_ = node_->Advertise<msgs::ImageStamped>("~/" + sensor->Name());
+      pictures_ = node_->Subscribe("~/" + sensor->Name(), &Sense::OnPicture, this);
       image_ = camera->Camera()->ConnectNewImageFrame([this](const unsigned char* image, unsigned int width,
                                                              unsigned int height, unsigned int depth,
                                                              const std::string& format) {
         const unsigned char* middle = image + (height / 2 * width + width / 2) * depth;
         picture_ = std::to_string(width) + "x" + std::to_string(height) + " " + format + " " +
                    (middle[0] > 2 * middle[depth - 1] ? "red" : "other");
+        msgs::ImageStamped message;
+        msgs::Set(message.mutable_time(), sensor_->LastMeasurementTime());
+        message.mutable_image()->set_width(width);
+        message.mutable_image()->set_pixel_format(common::Image::ConvertPixelFormat(format));
+        message.mutable_image()->set_data(image, std::size_t(width) * height * depth);
+        sent_->Publish(message);
       });
+    }
     if (auto cameras = std::dynamic_pointer_cast<sensors::MultiCameraSensor>(sensor))
       for (unsigned int i = 0; i < cameras->CameraCount(); ++i)
         images_.push_back(cameras->Camera(i)->ConnectNewImageFrame(
@@ -55,6 +66,11 @@ class Sense : public SensorPlugin {
 
  private:
   void OnScan(ConstLaserScanStampedPtr& message) { scanned_ = message->scan().ranges_size(); }
+
+  void OnPicture(ConstImageStampedPtr& message) {
+    const msgs::Image& image = message->image();
+    message_ = std::to_string(image.data().size() / image.width()) + " of " + std::to_string(image.pixel_format());
+  }
 
   void OnModels(ConstLogicalCameraImagePtr& message) { listed_ = message->model_size(); }
 
@@ -104,17 +120,18 @@ class Sense : public SensorPlugin {
       return seen;
     } else if (sensor_->Type() == "depth")
       std::snprintf(text, sizeof(text), "%s, depth %.2f", picture_.c_str(), depth_);
-    else if (sensor_->Type() == "camera") std::snprintf(text, sizeof(text), "%s", picture_.c_str());
+    else if (sensor_->Type() == "camera") std::snprintf(text, sizeof(text), "%s, message %s", picture_.c_str(), message_.c_str());
     return text;
   }
 
   sensors::SensorPtr sensor_;
-  std::string word_, picture_, order_;
+  std::string word_, picture_, order_, message_;
   float depth_ = 0.0f;
   int scanned_ = 0, listed_ = 0;
   bool is_told_ = false;
   transport::NodePtr node_;
-  transport::SubscriberPtr scans_, models_;
+  transport::PublisherPtr sent_;
+  transport::SubscriberPtr scans_, models_, pictures_;
   event::ConnectionPtr updated_, image_, depths_;
   std::vector<event::ConnectionPtr> images_;
 };

@@ -68,7 +68,7 @@ def test_each_kind_of_sensor_gives_its_readings(built: Path) -> None:
         "gps": "47.000 400.500",
         "sonar": seen.get("sonar", "nothing"),
         "bumper": seen.get("bumper", "nothing"),
-        "eye": "64x48 R8G8B8 red",
+        "eye": "64x48 RGB_INT8 red, message 144 of 3",
         "deep": "64x48 R8G8B8 red, depth 1.80",
         "list": seen.get("list", "nothing"),
         "eyes": "01 left red right other",

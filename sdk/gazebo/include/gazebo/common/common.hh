@@ -13,6 +13,7 @@
 #include <gazebo/common/Event.hh>
 #include <gazebo/common/Events.hh>
 #include <gazebo/common/Exception.hh>
+#include <gazebo/common/Image.hh>
 #include <gazebo/common/KeyFrame.hh>
 #include <gazebo/common/PID.hh>
 #include <gazebo/common/Plugin.hh>

@@ -418,6 +418,7 @@ typedef const boost::shared_ptr<const gazebo::msgs::LaserScanStamped> ConstLaser
 typedef const boost::shared_ptr<const gazebo::msgs::SonarStamped> ConstSonarStampedPtr;
 typedef const boost::shared_ptr<const gazebo::msgs::LogicalCameraImage> ConstLogicalCameraImagePtr;
 
+#include <gazebo/msgs/image_messages.h>
 #include <gazebo/msgs/world_messages.h>
 
 #endif

@@ -56,7 +56,8 @@ class Camera {
   // [px]
   virtual unsigned int ImageWidth() const { return width_; }
   virtual unsigned int ImageHeight() const { return height_; }
-  // Bytes per pixel, and their meaning: pictures are R8G8B8, or L8 if the file says so.
+  // Bytes per pixel, and their meaning: pictures are R8G8B8, or L8 if the file says so, in its words (RGB_INT8,
+  // L_INT8).
   virtual unsigned int ImageDepth() const { return depth_; }
   std::string ImageFormat() const { return format_; }
   std::size_t ImageByteSize() const { return std::size_t(width_) * height_ * depth_; }
