@@ -1,22 +1,26 @@
 """Sensors' plugins in C++, which get what the simulation measures."""
 
+import math
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import sysconfig
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
-from tests.graphs import running_graph
+from tests.graphs import running_graph, until
 
 from trundle.base.diagnostics import UsageError
 from trundle.ros.sdk import find_toolchain
 
 pytestmark = pytest.mark.slow
 _SOURCE = Path(__file__).parents[3] / "data/gazebo_plugins/sense"
-_WAIT_S = 600
+_WAIT_S = 1800  # the first to come compiles the kit
 
 
 def _environment(cwd: Path, **variables: str) -> dict[str, str]:
@@ -113,3 +117,53 @@ def test_gzserver_loads_a_plugin_of_the_system_before_the_others(built: Path) ->
     # A body that weighs nothing until the 90th step.
     assert "watched step 100 at 0.099, 99 draws, feather 1.9995" in output
     assert output.index("watched gzserver") < output.index("plugin 'through'")
+
+
+def test_a_camera_by_the_base_of_gazebo_ros_cameras_publishes_pictures_and_its_info(
+    built: Path, tmp_path: Path
+) -> None:
+    """Negatives of a red wall; the parameters of its element, set_camera_info, and no pictures without subscribers."""
+    del built
+    workspace = tmp_path / "ws"
+    shutil.copytree(_SOURCE.parent / "negative", workspace / "src/negative")
+    made = _run("--as", "catkin_make", cwd=workspace)
+    assert "library negative (src/negative.cpp; src/negative/CMakeLists.txt:10): built: " in made, made
+    with running_graph() as graph:
+        folder = workspace / "src/negative"
+        process = subprocess.Popen(
+            [sys.executable, "-m", "trundle", "run", "wall.world", "--headless"],
+            cwd=folder,
+            env=_environment(folder, ROS_MASTER_URI=graph.core.uri),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
+        try:
+            node = graph.node("viewer")
+            pictures: list[Any] = []
+            infos: list[Any] = []
+            node.subscribe("/mast/eye_1/image_raw", "sensor_msgs/Image", pictures.append)
+            until(lambda: pictures)
+            node.subscribe("/mast/eye_1/camera_info", "sensor_msgs/CameraInfo", infos.append)
+            until(lambda: infos)
+            matrix = [20.0, 0.0, 15.0, 0.0, 21.0, 11.0, 0.0, 0.0, 1.0]
+            wanted = {"width": 64, "height": 48, "distortion_model": "plumb_bob", "D": [0.0] * 5, "K": matrix}
+            call = node.call_service(
+                "/mast/eye_1/set_camera_info", "sensor_msgs/SetCameraInfo", {"camera_info": wanted}
+            )
+            graph.loop.run(call)
+            until(lambda: list(infos[-1].K) == matrix)
+        finally:
+            process.send_signal(signal.SIGINT)
+            output, _ = process.communicate(timeout=_WAIT_S)
+    assert "pictures of /mast/eye_1/image_raw are negatives" in output
+    picture, info = pictures[0], infos[0]
+    assert (picture.width, picture.height, picture.encoding) == (64, 48, "rgb8")
+    assert picture.header.frame_id == info.header.frame_id == "optical"
+    red, green, blue = np.asarray(picture.data, np.uint8).reshape(48, 64, 3)[24, 32].tolist()
+    assert red < green == blue == 255
+    focal = 32 / math.tan(0.5)
+    assert (info.K[0], info.K[2], info.K[5], info.P[3]) == pytest.approx((focal, 32.5, 24.5, -0.1 * focal))
+    assert list(info.D) == [0.25, 0.0, 0.0, 0.0, 0.0]
+    assert infos[-1].header.frame_id == "optical"
+    assert process.returncode == 130, output
