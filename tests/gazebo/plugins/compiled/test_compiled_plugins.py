@@ -23,7 +23,7 @@ from trundle.spatial import Pose
 pytestmark = pytest.mark.slow
 _ROOT = Path(__file__).parents[4]
 _SOURCES = _ROOT / "tests/data/gazebo_plugins"
-_WAIT_S = 300
+_WAIT_S = 1800  # the first to come compiles the kit
 
 
 def environment(**variables: str) -> dict[str, str]:

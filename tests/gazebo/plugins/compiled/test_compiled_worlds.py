@@ -17,7 +17,7 @@ from trundle.ros.sdk import find_toolchain
 
 pytestmark = pytest.mark.slow
 _SOURCE = Path(__file__).parents[3] / "data/gazebo_plugins/stage"
-_WAIT_S = 900
+_WAIT_S = 1800  # the first to come compiles the kit
 
 
 def _run(*words: str, cwd: Path, **variables: str) -> str:
