@@ -15,5 +15,6 @@
 #include <ignition/math/Vector2.hh>
 #include <ignition/math/Vector3.hh>
 #include <ignition/math/Vector4.hh>
+#include <ignition/math/config.hh>
 
 #endif
