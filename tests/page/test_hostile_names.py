@@ -80,12 +80,12 @@ def _world() -> str:
     models = "".join(
         f"<model name={quoteattr(name)}><pose>{i} 0 0.5 0 0 0</pose><link name={quoteattr(name)}>"
         f"<visual name={quoteattr(name)}><geometry><box><size>0.3 0.3 0.3</size></box></geometry></visual>"
-        f"<sensor name={quoteattr(name)} type='altimeter'/></link>"
+        f"<sensor name={quoteattr(name)} type='altimeter'><update_rate>10</update_rate></sensor></link>"
         f"<link name='b'/><joint name={quoteattr(name)} type='revolute'><parent>{_text(name)}</parent><child>b</child>"
         f"<axis><xyz>0 0 1</xyz></axis></joint>"
         f"<plugin name={quoteattr(name)} filename={quoteattr(name)}><value>{_text(name)}</value></plugin>"
         f"<plugin name={quoteattr(name)} filename='libgazebo_ros_p3d.so'><bodyName>b</bodyName>"
-        f"<topicName>/pose_{i}</topicName></plugin></model>"
+        f"<topicName>/pose_{i}</topicName><updateRate>10</updateRate></plugin></model>"
         f"<light name={quoteattr(name)} type='point'/>"
         for i, name in enumerate(EVIL.values())
     )
