@@ -196,7 +196,7 @@ void TransformListener::readPrefix() {
   if (ros::NodeHandle("~").searchParam("tf_prefix", key)) ros::param::get(key, prefix_);
 }
 
-// Transform a message into another frame, through its tf class.
+// Transform a message into another frame, and to another time, through its tf class.
 #define TF_TRANSFORM(Name, Message, name, Value)                                                             \
   void TransformListener::transform##Name(const std::string& target_frame, const geometry_msgs::Message& in, \
                                           geometry_msgs::Message& out) const {                               \
@@ -204,11 +204,51 @@ void TransformListener::readPrefix() {
     name##StampedMsgToTF(in, value);                                                                         \
     Transformer::transform##Name(target_frame, value, result);                                               \
     name##StampedTFToMsg(result, out);                                                                       \
+  }                                                                                                          \
+  void TransformListener::transform##Name(const std::string& target_frame, const ros::Time& target_time,     \
+                                          const geometry_msgs::Message& in, const std::string& fixed_frame,  \
+                                          geometry_msgs::Message& out) const {                               \
+    Stamped<Value> value, result;                                                                            \
+    name##StampedMsgToTF(in, value);                                                                         \
+    Transformer::transform##Name(target_frame, target_time, value, fixed_frame, result);                     \
+    name##StampedTFToMsg(result, out);                                                                       \
   }
 TF_TRANSFORM(Quaternion, QuaternionStamped, quaternion, Quaternion)
 TF_TRANSFORM(Vector, Vector3Stamped, vector3, Vector3)
 TF_TRANSFORM(Point, PointStamped, point, Point)
 TF_TRANSFORM(Pose, PoseStamped, pose, Pose)
 #undef TF_TRANSFORM
+
+namespace {
+
+void movePoints(const Transform& transform, const std::string& frame, const ros::Time& time,
+                const sensor_msgs::PointCloud& in, sensor_msgs::PointCloud& out) {
+  if (&in != &out) out = in;
+  out.header.frame_id = frame;
+  out.header.stamp = time;
+  for (geometry_msgs::Point32& point : out.points) {
+    const Vector3 moved = transform * Vector3(point.x, point.y, point.z);
+    point.x = static_cast<float>(moved.x());
+    point.y = static_cast<float>(moved.y());
+    point.z = static_cast<float>(moved.z());
+  }
+}
+
+}  // namespace
+
+void TransformListener::transformPointCloud(const std::string& target_frame, const sensor_msgs::PointCloud& in,
+                                            sensor_msgs::PointCloud& out) const {
+  StampedTransform transform;
+  lookupTransform(target_frame, in.header.frame_id, in.header.stamp, transform);
+  movePoints(transform, target_frame, in.header.stamp, in, out);
+}
+
+void TransformListener::transformPointCloud(const std::string& target_frame, const ros::Time& target_time,
+                                            const sensor_msgs::PointCloud& in, const std::string& fixed_frame,
+                                            sensor_msgs::PointCloud& out) const {
+  StampedTransform transform;
+  lookupTransform(target_frame, target_time, in.header.frame_id, in.header.stamp, fixed_frame, transform);
+  movePoints(transform, target_frame, target_time, in, out);
+}
 
 }  // namespace tf

@@ -8,6 +8,12 @@
 
 #include <string>
 
+#ifdef __has_include
+#if __has_include(<Eigen/Core>)
+#include <Eigen/Core>  // programs use it without including it
+#endif
+#endif
+
 namespace laser_geometry {
 
 /** Which values of a scan a cloud gets. */

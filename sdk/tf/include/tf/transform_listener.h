@@ -1,6 +1,7 @@
 #pragma once
 
 #include <ros/ros.h>
+#include <sensor_msgs/PointCloud.h>
 #include <std_msgs/Empty.h>
 #include <tf/tfMessage.h>
 #include <tf2_ros/buffer.h>
@@ -32,6 +33,26 @@ class TransformListener : public Transformer {
                       geometry_msgs::PointStamped& out) const;
   void transformPose(const std::string& target_frame, const geometry_msgs::PoseStamped& in,
                      geometry_msgs::PoseStamped& out) const;
+  /** Transform the points; the channels stay. */
+  void transformPointCloud(const std::string& target_frame, const sensor_msgs::PointCloud& in,
+                           sensor_msgs::PointCloud& out) const;
+
+  /** Transform from the time of `in` to another time; the fixed frame is where both are related. */
+  void transformQuaternion(const std::string& target_frame, const ros::Time& target_time,
+                           const geometry_msgs::QuaternionStamped& in, const std::string& fixed_frame,
+                           geometry_msgs::QuaternionStamped& out) const;
+  void transformVector(const std::string& target_frame, const ros::Time& target_time,
+                       const geometry_msgs::Vector3Stamped& in, const std::string& fixed_frame,
+                       geometry_msgs::Vector3Stamped& out) const;
+  void transformPoint(const std::string& target_frame, const ros::Time& target_time,
+                      const geometry_msgs::PointStamped& in, const std::string& fixed_frame,
+                      geometry_msgs::PointStamped& out) const;
+  void transformPose(const std::string& target_frame, const ros::Time& target_time,
+                     const geometry_msgs::PoseStamped& in, const std::string& fixed_frame,
+                     geometry_msgs::PoseStamped& out) const;
+  void transformPointCloud(const std::string& target_frame, const ros::Time& target_time,
+                           const sensor_msgs::PointCloud& in, const std::string& fixed_frame,
+                           sensor_msgs::PointCloud& out) const;
   /** Name of a frame with the prefix of the parameter tf_prefix. */
   std::string resolve(const std::string& frame_name) { return tf::resolve(prefix_, frame_name); }
 

@@ -196,6 +196,18 @@ int main(int argc, char** argv) {
   listener.transformPose("map", ahead, in_map);
   CHECK(near(in_map.pose.position.x, 1.0) && near(in_map.pose.position.y, 3.0) && near(in_map.pose.position.z, 0.5));
   CHECK(in_map.header.frame_id == "map" && near(tf::getYaw(in_map.pose.orientation), M_PI / 2));
+  listener.transformPose("map", ros::Time(0), ahead, "map", in_map);
+  CHECK(in_map.header.frame_id == "map" && near(in_map.pose.position.y, 3.0));
+  sensor_msgs::PointCloud cloud;
+  cloud.header.frame_id = "camera";
+  cloud.points.resize(2);
+  cloud.points[1].x = 1.0f;
+  cloud.channels.resize(1);
+  listener.transformPointCloud("map", cloud, cloud);
+  CHECK(cloud.header.frame_id == "map" && cloud.channels.size() == 1 && cloud.points.size() == 2);
+  CHECK(near(cloud.points[0].y, 2.0) && near(cloud.points[1].x, 1.0) && near(cloud.points[1].y, 3.0));
+  listener.transformPointCloud("camera", ros::Time(0), cloud, "map", cloud);
+  CHECK(cloud.header.frame_id == "camera" && near(cloud.points[1].x, 1.0) && near(cloud.points[1].z, 0.0));
   const geometry_msgs::TransformStamped found =
       buffer.lookupTransform("map", "camera", ros::Time(0), ros::Duration(20.0));
   tf2::Transform transform;
