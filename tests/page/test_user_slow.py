@@ -99,6 +99,18 @@ def _open_page(chromium: Any, graph: Graph) -> Iterator[tuple[Any, ThrottledLink
         yield page, link
 
 
+def _ages_ms(page: Any, duration_ms: int) -> Any:
+    """Collect pairs of a message's time of handling and age."""
+    page.evaluate("window.ages = []")
+    page.wait_for_timeout(duration_ms)
+    return page.evaluate("window.ages")
+
+
+def _usual_age_ms(page: Any) -> float:
+    """Return the median age on this machine, with whatever else it does."""
+    return statistics.median(age for _, age in _ages_ms(page, 5_000))
+
+
 def _seconds_behind(chip: Any) -> float:
     return float(chip.inner_text().partition(" s behind")[0])
 
@@ -124,26 +136,24 @@ def test_a_late_page_says_so_until_it_has_caught_up(chromium: Any, graph: Graph)
 def test_a_page_behind_a_slow_connection_stays_up_to_date(chromium: Any, graph: Graph) -> None:
     """Images need seventy times as much as the connection has."""
     with _open_page(chromium, graph) as (page, link):
+        usual = _usual_age_ms(page)
         link.bytes_per_s = SLOW
         page.wait_for_timeout(10_000)
-        page.evaluate("window.ages = []")
-        page.wait_for_timeout(10_000)
-        ages = [age for _, age in page.evaluate("window.ages")]
+        ages = [age for _, age in _ages_ms(page, 10_000)]
 
     assert len(ages) > 2 * 10 / PERIOD_S / 4
-    assert statistics.median(ages) < 300
+    assert statistics.median(ages) < usual + 300
 
 
 @pytest.mark.slow
 def test_a_busy_browser_shows_what_is_new_between_its_frames(chromium: Any, graph: Graph) -> None:
     """Two frames a second: each begins with fresh messages."""
     with _open_page(chromium, graph) as (page, _):
+        usual = _usual_age_ms(page)
         page.evaluate(BUSY)
         page.wait_for_timeout(3000)
-        page.evaluate("window.ages = []")
-        page.wait_for_timeout(10_000)
-        ages = page.evaluate("window.ages")
+        ages = _ages_ms(page, 10_000)
 
     newest = {int(handled / 500): age for handled, age in ages}
     assert len(newest) > 5
-    assert statistics.median(newest.values()) < 300
+    assert statistics.median(newest.values()) < usual + 300
