@@ -94,7 +94,7 @@ TEST_CASE("a scan is most likely where it was taken, by every model") {
     std::vector<Particle> particles;
     for (const PlanarPose& error : {PlanarPose{}, PlanarPose{0.4, 0, 0}, PlanarPose{0, -0.4, 0}, PlanarPose{0, 0, 0.5}})
       particles.push_back({{truth.x + error.x, truth.y + error.y, truth.yaw + error.yaw}, 0.25});
-    model.weigh(particles, scan, false);
+    model.weigh(particles, scan, {});
 
     for (std::size_t i = 1; i < particles.size(); ++i) CHECK(particles[0].weight > particles[i].weight);
   }
