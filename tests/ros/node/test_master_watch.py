@@ -3,7 +3,7 @@
 from typing import Any
 
 import pytest
-from tests.graphs import PATIENCE_S, until
+from tests.graphs import PATIENCE_S, free_port, until
 
 from trundle.ros import Core, GraphLoop, MasterProxy, Node
 
@@ -15,7 +15,7 @@ def _frequent_look_ups(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("trundle.ros.node.master_watch._PERIOD_S", 0.1)
 
 
-def _core(loop: GraphLoop, port: int = 0) -> Core:
+def _core(loop: GraphLoop, port: int) -> Core:
     core = Core(loop, port=port)
     loop.run(core.start(), PATIENCE_S)
     return core
@@ -26,7 +26,7 @@ def test_nodes_go_on_without_their_master_and_register_again(capfd: pytest.Captu
     changes: list[object] = []
     with GraphLoop() as talking, GraphLoop() as listening:
         with GraphLoop() as mastering:
-            core = _core(mastering)
+            core = _core(mastering, free_port())  # where no other test's master begins once it has ended
             uri, port = core.uri, core.port
             talker = Node("talker", loop=talking, master_uri=uri, params={"gain": 3}, rosout=False)
             listener = Node("listener", loop=listening, master_uri=uri, rosout=False)
