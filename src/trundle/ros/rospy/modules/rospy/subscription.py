@@ -187,8 +187,9 @@ class Subscription:
 
     def _next(self) -> tuple[_Data, Mapping[str, str]] | None:
         """Read the sockets and return the next message with its header; None at the end."""
+        took_s = time.monotonic() - self._read_s
         while not self.closed:
-            self._read()
+            self._read(took_s)
             with self._queue_lock:
                 if self._waiting:
                     message = self._waiting.popleft()
@@ -196,9 +197,13 @@ class Subscription:
                     return message
         return None
 
-    def _read(self) -> None:
-        """Read what the sockets hold, unless that was a moment ago; wait for it if no message waits."""
-        took_s = time.monotonic() - self._read_s
+    def _read(self, took_s: float) -> None:
+        """Read what the sockets hold, unless that was a moment ago; wait for it if no message waits.
+
+        Args:
+            took_s: duration of the callbacks since the last reading [s]; the same after a wait that ended without a
+                message, such as of one that the loop read first.
+        """
         if self._waiting and took_s < _READ_S:
             return
         has_room = self._waiting_bytes <= _MAX_WAITING_BYTES
